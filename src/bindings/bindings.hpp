@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Each concept of the core registers itself in a file of its own.
+#pragma once
+
+#include <nanobind/eigen/dense.h>
+#include <nanobind/nanobind.h>
+#include <nanobind/stl/function.h>
+#include <nanobind/stl/string.h>
+
+namespace nb = nanobind;
+using namespace nb::literals;
+
+/// Every long call of the core runs without Python's lock.
+using ReleaseGil = nb::call_guard<nb::gil_scoped_release>;
+
+void register_errors(nb::module_& module);
+void register_neighbors(nb::module_& module);
+void register_parallel(nb::module_& module);

@@ -1,0 +1,9 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "bindings.hpp"
+
+NB_MODULE(_core, module) {
+  module.doc() = "The compiled core of hdpea: arrays in, arrays out.";
+  register_errors(module);
+  register_neighbors(module);
+  register_parallel(module);
+}

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hdpea_cpp/neighbors.hpp"
+
+#include "bindings.hpp"
+
+void register_neighbors(nb::module_& module) {
+  using hdpea::CoordinatesRef;
+  using hdpea::Index;
+  module.def("nearest_neighbors",
+             nb::overload_cast<const CoordinatesRef&, const CoordinatesRef&, Index>(&hdpea::nearest_neighbors),
+             "points"_a, "queries"_a, "k"_a, ReleaseGil(),
+             "The k nearest of points (n, d) to each query (m, d): (m, k) int64, ties by index, padded with -1.");
+  module.def("nearest_neighbors", nb::overload_cast<const CoordinatesRef&, Index>(&hdpea::nearest_neighbors),
+             "points"_a, "k"_a, ReleaseGil(),
+             "The k nearest other points of each point (n, d): (n, k) int64, ties by index, padded with -1.");
+  module.def("same_sheet_neighbors", &hdpea::same_sheet_neighbors, "neighbors"_a, "normals"_a, "min_cosine"_a,
+             ReleaseGil(), "Keep the neighbours whose unit normal agrees with the point's; pad with -1.");
+}

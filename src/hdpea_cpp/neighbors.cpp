@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hdpea_cpp/neighbors.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <nanoflann.hpp>
+#include <utility>
+#include <vector>
+
+#include "hdpea_cpp/errors.hpp"
+#include "hdpea_cpp/parallel.hpp"
+
+namespace hdpea {
+namespace {
+
+/// nanoflann's view of a row-major array.
+struct Adaptor {
+  const CoordinatesRef& points;
+
+  std::size_t kdtree_get_point_count() const { return static_cast<std::size_t>(points.rows()); }
+  double kdtree_get_pt(std::size_t row, std::size_t column) const { return points(row, column); }
+  template <class Box>
+  bool kdtree_get_bbox(Box&) const {
+    return false;
+  }
+};
+
+/// The k best by (distance, index): nanoflann's own set breaks ties by the order of its tree.
+class NearestSet {
+ public:
+  using DistanceType = double;
+  explicit NearestSet(std::size_t k) : k_(k) { best_.reserve(k + 1); }
+
+  void clear() { best_.clear(); }
+  bool full() const { return best_.size() == k_; }
+  /// A little more than the k-th distance, since nanoflann passes on only what is strictly less.
+  double worstDist() const {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    return full() ? std::nextafter(best_.back().first, infinity) : std::numeric_limits<double>::max();
+  }
+  bool addPoint(double distance, Index index) {
+    const std::pair<double, Index> candidate{distance, index};
+    if (full() && candidate >= best_.back()) return true;
+    if (full()) best_.pop_back();
+    best_.insert(std::upper_bound(best_.begin(), best_.end(), candidate), candidate);
+    return true;
+  }
+  const std::vector<std::pair<double, Index>>& best() const { return best_; }
+
+ private:
+  std::size_t k_;
+  std::vector<std::pair<double, Index>> best_;
+};
+
+using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Adaptor<double, Adaptor>, Adaptor, -1, Index>;
+
+/// The row's k nearest, leaving out `excluded` (-1: nothing is left out).
+template <class Row>
+void search(const Tree& tree, const double* query, Index excluded, Row row) {
+  thread_local std::vector<Index> found;
+  NearestSet nearest(static_cast<std::size_t>(row.size()) + (excluded >= 0 ? 1 : 0));
+  tree.findNeighbors(nearest, query, nanoflann::SearchParams());
+  found.clear();
+  for (const auto& [distance, index] : nearest.best()) {
+    if (index != excluded) found.push_back(index);
+  }
+  row.setConstant(-1);
+  const Index count = std::min<Index>(row.size(), static_cast<Index>(found.size()));
+  for (Index i = 0; i < count; ++i) row(i) = found[i];
+}
+
+void check(const CoordinatesRef& points, Index k) {
+  require(k >= 1, "the number of neighbours must be at least 1");
+  require(points.rows() >= 1 && points.cols() >= 1, "nearest_neighbors needs at least one point");
+}
+
+}  // namespace
+
+Neighbors nearest_neighbors(const CoordinatesRef& points, const CoordinatesRef& queries, Index k) {
+  check(points, k);
+  require(points.cols() == queries.cols(), "points and queries must have the same dimension");
+  const Adaptor adaptor{points};
+  const Tree tree(static_cast<int>(points.cols()), adaptor);
+  Neighbors neighbors(queries.rows(), k);
+  parallel_for(queries.rows(), [&](Index i) { search(tree, queries.row(i).data(), -1, neighbors.row(i)); });
+  return neighbors;
+}
+
+Neighbors nearest_neighbors(const CoordinatesRef& points, Index k) {
+  check(points, k);
+  const Adaptor adaptor{points};
+  const Tree tree(static_cast<int>(points.cols()), adaptor);
+  Neighbors neighbors(points.rows(), k);
+  parallel_for(points.rows(), [&](Index i) { search(tree, points.row(i).data(), i, neighbors.row(i)); });
+  return neighbors;
+}
+
+Neighbors same_sheet_neighbors(const NeighborsRef& neighbors, const PointsRef& normals, double min_cosine) {
+  require(neighbors.rows() == normals.rows(), "neighbors and normals must have one row per point");
+  Neighbors kept = Neighbors::Constant(neighbors.rows(), neighbors.cols(), -1);
+  parallel_for(neighbors.rows(), [&](Index i) {
+    Index count = 0;
+    for (Index j : neighbors.row(i)) {
+      if (j >= 0 && normals.row(i).dot(normals.row(j)) >= min_cosine) kept(i, count++) = j;
+    }
+  });
+  return kept;
+}
+
+}  // namespace hdpea
