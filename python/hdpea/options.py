@@ -1,0 +1,86 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""One options dataclass per stage: the only home of every default.
+
+The command line, the Python signatures and the report read these fields; ``help`` is the text that
+``hdpea reconstruct --help`` shows. This module imports nothing heavy, so that help stays instant.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any
+
+from hdpea.lengths import Length
+
+
+def option(default: Any, help: str, **metadata: Any) -> Any:
+    """Return a dataclass field that carries its help text (and ``choices``, if only some values are legal)."""
+    return field(default=default, metadata={"help": help, **metadata})
+
+
+@dataclass(frozen=True)
+class NormalOptions:
+    """How normals are had (``hdpea.normals``)."""
+
+    normals: str = option(
+        "auto",
+        "auto: the file's where they are usable, else estimated; file: the file's or fail; estimate: always estimate",
+        choices=("auto", "file", "estimate"),
+    )
+    normal_neighbors: int = option(16, "nearest points whose plane gives an estimated normal")
+
+
+@dataclass(frozen=True)
+class EmbeddingOptions:
+    """How the cloud is embedded in R^8 (``hdpea.embedding``)."""
+
+    embedding: str = option("direct", "direct: solved for on this cloud, no training", choices=("direct",))
+    curvature_radius: Length | None = option(
+        None, "radius in which curvature is measured, as 0.02 or 1%; default: from the vertex budget and the sampling"
+    )
+    bending_length: Length | None = option(
+        None, "length below which the embedding does not bend, as 0.02 or 1%; default: from the vertex budget"
+    )
+    metric_scale: float = option(1.0, "c of the metric s^2 = c |k|: larger stretches more")
+    max_stretch: float = option(8.0, "largest stretch of the metric in any direction")
+
+
+@dataclass(frozen=True)
+class ParticleOptions:
+    """How the vertices are spread (``hdpea.particles``)."""
+
+    iterations: int = option(100, "steps of the particles' energy descent")
+    seed: int = option(0, "seed of everything random; the same seed gives the same bytes")
+
+
+@dataclass(frozen=True)
+class MeshingOptions:
+    """How the particles become a mesh (``hdpea.meshing``)."""
+
+    vertices: int | None = option(None, "vertices wanted; default: one for every 8 points")
+    faces: int | None = option(None, "faces wanted, instead of --vertices")
+    fill_holes: Length | None = option(
+        None, "fill holes up to this size across, as 0.02 or 1%; default: 4 times the vertex spacing; 0: none"
+    )
+    watertight: bool = option(False, "close every hole, whatever its size")
+    min_component: int = option(16, "drop connected pieces of fewer faces than this")
+
+
+@dataclass(frozen=True)
+class RefinementOptions:
+    """How the mesh is fitted to the points afterwards (``hdpea.refinement``)."""
+
+    refine: bool = option(True, "fit the vertices to the points by least squares")
+    rounds: int = option(2, "rounds of projection and fitting")
+
+
+@dataclass(frozen=True)
+class Options:
+    """Everything ``hdpea.reconstruct`` can be told."""
+
+    normals: NormalOptions = NormalOptions()
+    embedding: EmbeddingOptions = EmbeddingOptions()
+    particles: ParticleOptions = ParticleOptions()
+    meshing: MeshingOptions = MeshingOptions()
+    refinement: RefinementOptions = RefinementOptions()
+    threads: int = option(0, "threads to use; 0: all cores (the result is the same for any number)")
