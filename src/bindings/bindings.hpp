@@ -15,5 +15,6 @@ using ReleaseGil = nb::call_guard<nb::gil_scoped_release>;
 
 void register_errors(nb::module_& module);
 void register_farthest_point_sampling(nb::module_& module);
+void register_mesh_check(nb::module_& module);
 void register_neighbors(nb::module_& module);
 void register_parallel(nb::module_& module);
