@@ -18,3 +18,4 @@ void register_farthest_point_sampling(nb::module_& module);
 void register_mesh_check(nb::module_& module);
 void register_neighbors(nb::module_& module);
 void register_parallel(nb::module_& module);
+void register_surface_distance(nb::module_& module);

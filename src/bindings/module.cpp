@@ -8,4 +8,5 @@ NB_MODULE(_core, module) {
   register_mesh_check(module);
   register_neighbors(module);
   register_parallel(module);
+  register_surface_distance(module);
 }
