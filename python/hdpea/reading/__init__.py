@@ -87,7 +87,11 @@ def _read_bytes(path: Path) -> bytes:
         return path.read_bytes()
     except FileNotFoundError as error:
         folder = path.parent
-        near = get_close_matches(path.name, [each.name for each in folder.iterdir()], 1) if folder.is_dir() else []
+        near = (
+            get_close_matches(path.name, [each.name for each in folder.iterdir()], 1, cutoff=0.75)
+            if folder.is_dir()
+            else []
+        )
         hint = f"Did you mean {folder / near[0]}?" if near else "Check the spelling and the folder."
         raise UnreadableInput(f"There is no file {path}.", hint) from error
     except IsADirectoryError as error:
