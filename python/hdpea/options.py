@@ -97,7 +97,7 @@ class MeshingOptions(_Checked):
         """Return how many vertices to make of so many points: a closed mesh has two faces for each."""
         if self.vertices is not None:
             return self.vertices
-        return self.faces // 2 + 2 if self.faces is not None else max(points // 8, 12)
+        return self.faces // 2 + 2 if self.faces is not None else max(points // POINTS_PER_VERTEX, 12)
 
 
 @dataclass(frozen=True)

@@ -62,7 +62,7 @@ FAILING_SEED, SLEEPING_SEED = 13, 14
 
 def install() -> None:
     """Take the places of the real modules in this process."""
-    for name, function in {"hdpea.reconstruct": reconstruct, "hdpea.embedding": embed_points}.items():
+    for name, function in {"hdpea.reconstruction": reconstruct, "hdpea.embedding": embed_points}.items():
         module = ModuleType(name)
         setattr(module, function.__name__, function)
         sys.modules[name] = module

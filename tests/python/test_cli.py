@@ -23,7 +23,7 @@ Capture = pytest.CaptureFixture[str]
 
 @pytest.fixture(autouse=True)
 def stand_ins(monkeypatch: pytest.MonkeyPatch) -> None:
-    for name in ("hdpea.reconstruct", "hdpea.embedding"):
+    for name in ("hdpea.reconstruction", "hdpea.embedding"):
         monkeypatch.setitem(sys.modules, name, sys.modules.get(name))
     standins.install()
 

@@ -71,7 +71,7 @@ def command(
         # Torch takes seconds to load, so this comes after all that may be wrong with the request.
         tell(progress, "start-up", 0.0)
         with clock.stage("start-up"):
-            from hdpea.reconstruct import reconstruct
+            from hdpea.reconstruction import reconstruct
         result = reconstruct(cloud.points, cloud.normals, options, progress)
         result.report.begin_with(source, cloud, clock)
         tell(progress, "writing", 0.0)
