@@ -14,7 +14,7 @@ SUDO := $(if $(filter 0,$(shell id -u)),,sudo)
 BUILD_PACKAGES := g++ cmake ninja-build python3-dev python3-venv \
   libcgal-dev libeigen3-dev libnanoflann-dev libtbb-dev libgtest-dev
 # Pictures without a screen, and the scans of the demo.
-DEMO_PACKAGES := libosmesa6 libgl1 libegl1 libcgal-demo
+DEMO_PACKAGES := libosmesa6 libcgal-demo
 SCANS := /usr/share/doc/libcgal-dev/data.tar.gz
 
 PACKAGE_SOURCES := CMakeLists.txt pyproject.toml $(shell find src python -type f -not -name '*.pyc')

@@ -11,25 +11,31 @@ fails is a row that says so. Needs the `bench` dependency group (`make bench-set
 from __future__ import annotations
 
 import csv
-import importlib.util
 import multiprocessing
 import time
 import zlib
 from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
+from dataclasses import dataclass
+from importlib.machinery import SourceFileLoader
 from pathlib import Path
+from types import ModuleType
 from typing import Any
 
 import click
 import numpy as np
+import trimesh
+from numpy.typing import NDArray
 
 from hdpea import _core, reconstruct
+from hdpea.io import write_mesh
 from hdpea.options import EmbeddingOptions, MeshingOptions, Options
+from hdpea.picture import draw
 
 ROOT = Path(__file__).resolve().parent.parent
 POINTS = 40_000
 OURS, FLOOR = "hdpea", "floor"
 
-# Column, its digits, and what it is. The first five of the baselines' scores rank; the others explain.
+# Columns and their digits. CDs, HDs and G tell good meshes apart; CD, F1 and HD stop at the sampling floor.
 COLUMNS = {
     "nV": 0, "CDs": 3, "HDs": 3, "G": 3, "CD": 3, "F1": 4, "NC": 4, "HD": 3, "T3": 3, "watertight": 2, "manifold": 2,
     "boundary_edges": 1, "nonmanifold_edges": 1, "seconds": 1,
@@ -38,69 +44,62 @@ COLUMNS = {
 Row = dict[str, Any]
 
 
-def load_metrics(baselines: Path) -> Any:
-    """Import the baselines' `metrics.py`, which is no package."""
-    spec = importlib.util.spec_from_file_location("metrics", baselines / "metrics.py")
-    assert spec is not None and spec.loader is not None
-    metrics = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(metrics)
+@dataclass(frozen=True)
+class Task:
+    """One mesh, and what to do with it."""
+
+    path: Path
+    baselines: Path
+    options: Options
+    save: Path | None
+    picture: bool
+
+
+def load_metrics(baselines: Path) -> ModuleType:
+    """Import the baselines' `metrics.py`, which is in no package."""
+    metrics = ModuleType("metrics")
+    SourceFileLoader("metrics", str(baselines / "metrics.py")).exec_module(metrics)
     return metrics
 
 
-def read_mesh(path: Path) -> tuple[np.ndarray, np.ndarray]:
+def read_mesh(path: Path) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
     """Read vertices and faces, equal vertices merged."""
-    import trimesh
-
     mesh = trimesh.load(path, process=False)
     vertices, inverse = np.unique(np.asarray(mesh.vertices, float), axis=0, return_inverse=True)
     return vertices, inverse.reshape(-1)[np.asarray(mesh.faces)]
 
 
-def run_mesh(path: Path, baselines: Path, vertices: int, embedding: str, save: Path | None, picture: bool) -> Row:
+def run_mesh(task: Task) -> Row:
     """Sample, reconstruct and score one mesh."""
-    metrics = load_metrics(baselines)
-    seed = zlib.crc32(path.stem.encode()) % 100_000
-    truth = metrics.GroundTruth(*read_mesh(path), seed=seed)
+    name, metrics = task.path.stem, load_metrics(task.baselines)
+    seed = zlib.crc32(name.encode()) % 100_000
+    truth = metrics.GroundTruth(*read_mesh(task.path), seed=seed)
     points, normals = metrics.sample(truth.V, truth.F, POINTS, seed)
 
-    options = Options(
-        embedding=EmbeddingOptions(embedding=embedding), meshing=MeshingOptions(vertices=vertices)
-    )
     start = time.perf_counter()
-    result = reconstruct(points, normals, options=options)
+    result = reconstruct(points, normals, options=task.options)
     seconds = time.perf_counter() - start
-    if save:
-        from hdpea.io import write_mesh
+    if task.save:
+        write_mesh(task.save / f"{name}.ply", result.vertices, result.faces)
+        if task.picture:
+            draw(task.save / f"{name}.png", result.vertices, result.faces)
 
-        write_mesh(save / f"{path.stem}.ply", result.vertices, result.faces)
-        if picture:
-            from hdpea.picture import draw
-
-            draw(save / f"{path.stem}.png", result.vertices, result.faces)
-
-    check = _core.check_mesh(result.vertices, result.faces)
-    row: Row = metrics.evaluate(result.vertices, result.faces, truth, seed)
-    row |= {
-        "mesh": path.stem,
-        "target": vertices,
-        "peer": OURS,
-        "status": "ok",
-        "manifold": int(check.is_manifold),
-        "T3": result.report["meshing"]["t3"] / len(result.faces),
-        "seconds": seconds,
-    }
-    return row
+    row: Row = {"mesh": name, "target": task.options.meshing.vertices, "peer": OURS, "status": "ok"}
+    row |= metrics.evaluate(result.vertices, result.faces, truth, seed)
+    row["manifold"] = int(_core.check_mesh(result.vertices, result.faces).manifold)
+    row["T3"] = result.report["meshing"]["t3"] / len(result.faces)
+    return row | {"seconds": seconds}
 
 
-def run_isolated(*arguments: Any) -> Row:
+def run_isolated(task: Task) -> Row:
     """Run a mesh in a process of its own: its crash is its own too, and so is its memory."""
-    path = arguments[0]
     try:
         with ProcessPoolExecutor(1, mp_context=multiprocessing.get_context("spawn")) as pool:
-            row = pool.submit(run_mesh, *arguments).result()
-    except Exception as error:  # whatever happened to one mesh, the others go on
-        row = {"mesh": path.stem, "peer": OURS, "status": "failed", "note": f"{type(error).__name__}: {error}"}
-    click.echo(f"{path.stem}: {row.get('note', row['status'])}", err=True)
+            row = pool.submit(run_mesh, task).result()
+    except Exception as error:  # noqa: BLE001 whatever happened to one mesh, the others go on
+        note = f"{type(error).__name__}: {error}"
+        row = {"mesh": task.path.stem, "peer": OURS, "status": "failed", "note": note}
+    click.echo(f"{task.path.stem}: {row.get('note', row['status'])}", err=True)
     return row
 
 
@@ -115,7 +114,17 @@ def read_rivals(baselines: Path, meshes: list[str]) -> list[Row]:
     return [row for row in rows if row["mesh"] in meshes]
 
 
+def write_scores(path: Path, rows: list[Row]) -> None:
+    """Write every score, all digits, under the column names of `val.csv`."""
+    columns = list(dict.fromkeys(key for row in rows for key in row))
+    with path.open("w", newline="") as file:
+        writer = csv.DictWriter(file, columns)
+        writer.writeheader()
+        writer.writerows(rows)
+
+
 def format_value(column: str, value: Any) -> str:
+    """Return a score to its column's digits; nothing where there is none."""
     return "" if value in (None, "") else f"{value:.{COLUMNS[column]}f}"
 
 
@@ -134,12 +143,14 @@ def mean(rows: list[Row]) -> Row:
 
 
 def print_report(ours: list[Row], rivals: list[Row]) -> None:
+    """Print the means over the meshes that came out, then every mesh."""
     done = [row["mesh"] for row in ours if row["status"] == "ok"]
     click.echo(f"## Means over {len(done)} meshes, {POINTS} points each\n")
     peers = dict.fromkeys(row["peer"] for row in rivals)
     everything = {OURS: ours} | {peer: [row for row in rivals if row["peer"] == peer] for peer in peers}
     counted = {
-        peer: [row for row in rows if row["status"] == "ok" and row["mesh"] in done] for peer, rows in everything.items()
+        peer: [row for row in rows if row["status"] == "ok" and row["mesh"] in done]
+        for peer, rows in everything.items()
     }
     print_table(["method", "ok"], [([peer, f"{len(rows)}/{len(ours)}"], mean(rows)) for peer, rows in counted.items()])
 
@@ -166,6 +177,7 @@ def print_report(ours: list[Row], rivals: list[Row]) -> None:
 @click.option("--save", type=click.Path(path_type=Path), help="folder for the meshes and scores.csv")
 @click.option("--picture", is_flag=True, help="with --save: a picture of each mesh, too")
 def main(
+    *,
     folder: Path,
     baselines: Path,
     meshes: str | None,
@@ -181,14 +193,11 @@ def main(
         raise click.UsageError(f"no such meshes in {folder}")
     if save:
         save.mkdir(parents=True, exist_ok=True)
+    options = Options(embedding=EmbeddingOptions(embedding=embedding), meshing=MeshingOptions(vertices=vertices))
     with ThreadPoolExecutor(jobs) as pool:
-        ours = list(pool.map(lambda path: run_isolated(path, baselines, vertices, embedding, save, picture), paths))
+        ours = list(pool.map(run_isolated, [Task(path, baselines, options, save, picture) for path in paths]))
     if save:
-        columns = list(dict.fromkeys(key for row in ours for key in row))
-        with (save / "scores.csv").open("w", newline="") as file:
-            writer = csv.DictWriter(file, columns)
-            writer.writeheader()
-            writer.writerows(ours)
+        write_scores(save / "scores.csv", ours)
     print_report(ours, read_rivals(baselines, [path.stem for path in paths]))
 
 

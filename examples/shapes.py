@@ -20,36 +20,34 @@ TAU = 2 * np.pi
 
 
 def torus(u: Array, v: Array) -> Array:
-    """A torus with radii 1 and 0.4."""
+    """Return a torus with radii 1 and 0.4."""
     ring = 1 + 0.4 * np.cos(TAU * v)
     return np.stack([ring * np.cos(TAU * u), ring * np.sin(TAU * u), 0.4 * np.sin(TAU * v)], axis=-1)
 
 
 def ellipsoid(u: Array, v: Array) -> Array:
-    """An ellipsoid with half axes 2, 1 and 0.5."""
+    """Return an ellipsoid with half axes 2, 1 and 0.5."""
     latitude = np.pi * (v - 0.5)
     around = np.cos(latitude)
     return np.stack([2 * around * np.cos(TAU * u), around * np.sin(TAU * u), 0.5 * np.sin(latitude)], axis=-1)
 
 
 def bumps(u: Array, v: Array) -> Array:
-    """A unit sphere with waves on it."""
+    """Return a unit sphere with waves on it."""
     latitude = np.pi * (v - 0.5)
     radius = 1 + 0.1 * np.cos(5 * TAU * u) * np.cos(latitude) ** 5
     around = np.cos(latitude)
-    return radius[..., None] * np.stack(
-        [around * np.cos(TAU * u), around * np.sin(TAU * u), np.sin(latitude)], axis=-1
-    )
+    return radius[..., None] * np.stack([around * np.cos(TAU * u), around * np.sin(TAU * u), np.sin(latitude)], axis=-1)
 
 
 def cone(u: Array, v: Array) -> Array:
-    """The side of a cone cut off at both ends: open, with two borders, and flat along its lines."""
+    """Return the side of a cone cut off at both ends: open, with two borders, and flat along its lines."""
     radius = 1 - 0.7 * v
     return np.stack([radius * np.cos(TAU * u), radius * np.sin(TAU * u), 2 * v], axis=-1)
 
 
 def knot(u: Array, v: Array) -> Array:
-    """A tube of radius 0.25 along a trefoil knot."""
+    """Return a tube of radius 0.25 along a trefoil knot."""
 
     def centre(t: Array) -> Array:
         return np.stack([np.sin(t) + 2 * np.sin(2 * t), np.cos(t) - 2 * np.cos(2 * t), -np.sin(3 * t)], axis=-1) / 2
