@@ -15,4 +15,8 @@ using ReleaseGil = nb::call_guard<nb::gil_scoped_release>;
 
 void register_errors(nb::module_& module);
 void register_neighbors(nb::module_& module);
+void register_embedding(nb::module_& module);
+void register_manifold_extraction(nb::module_& module);
 void register_parallel(nb::module_& module);
+void register_restricted_voronoi(nb::module_& module);
+void register_sheets(nb::module_& module);

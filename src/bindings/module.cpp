@@ -5,5 +5,9 @@ NB_MODULE(_core, module) {
   module.doc() = "The compiled core of hdpea: arrays in, arrays out.";
   register_errors(module);
   register_neighbors(module);
+  register_embedding(module);
+  register_manifold_extraction(module);
   register_parallel(module);
+  register_restricted_voronoi(module);
+  register_sheets(module);
 }

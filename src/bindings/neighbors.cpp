@@ -13,6 +13,4 @@ void register_neighbors(nb::module_& module) {
   module.def("nearest_neighbors", nb::overload_cast<const CoordinatesRef&, Index>(&hdpea::nearest_neighbors),
              "points"_a, "k"_a, ReleaseGil(),
              "The k nearest other points of each point (n, d): (n, k) int64, ties by index, padded with -1.");
-  module.def("same_sheet_neighbors", &hdpea::same_sheet_neighbors, "neighbors"_a, "normals"_a, "min_cosine"_a,
-             ReleaseGil(), "Keep the neighbours whose unit normal agrees with the point's; pad with -1.");
 }

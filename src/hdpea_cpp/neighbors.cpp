@@ -96,16 +96,4 @@ Neighbors nearest_neighbors(const CoordinatesRef& points, Index k) {
   return neighbors;
 }
 
-Neighbors same_sheet_neighbors(const NeighborsRef& neighbors, const PointsRef& normals, double min_cosine) {
-  require(neighbors.rows() == normals.rows(), "neighbors and normals must have one row per point");
-  Neighbors kept = Neighbors::Constant(neighbors.rows(), neighbors.cols(), -1);
-  parallel_for(neighbors.rows(), [&](Index i) {
-    Index count = 0;
-    for (Index j : neighbors.row(i)) {
-      if (j >= 0 && normals.row(i).dot(normals.row(j)) >= min_cosine) kept(i, count++) = j;
-    }
-  });
-  return kept;
-}
-
 }  // namespace hdpea

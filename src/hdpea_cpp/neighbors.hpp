@@ -19,14 +19,4 @@ Neighbors nearest_neighbors(const CoordinatesRef& points, const CoordinatesRef& 
 /// The k nearest *other* points of each point: as above, without the point itself.
 Neighbors nearest_neighbors(const CoordinatesRef& points, Index k);
 
-/// Keeps, of each row, the neighbours on the same sheet: those whose normal agrees with the point's.
-///
-/// Two sides of a thin wall are near in space but have opposite normals; one neighbour from the other
-/// side ruins a tangent plane or a curvature. Order is kept; rows are filled up with -1.
-///
-/// @param neighbors   (n, k) indices into the points, -1 allowed
-/// @param normals     (n, 3) unit, consistently oriented
-/// @param min_cosine  least n . n' for "agrees"
-Neighbors same_sheet_neighbors(const NeighborsRef& neighbors, const PointsRef& normals, double min_cosine);
-
 }  // namespace hdpea

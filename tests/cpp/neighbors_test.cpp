@@ -63,16 +63,6 @@ TEST(Neighbors, AQueryAtAPointFindsIt) {
   for (Index i = 0; i < 50; ++i) EXPECT_EQ((points.row(nearest(i, 0)) - points.row(i)).norm(), 0);
 }
 
-TEST(Neighbors, SameSheetLeavesOutTheOtherSideOfAWall) {
-  Points normals(4, 3);
-  normals << 0, 0, 1, 0, 0, -1, 0, 0, 1, 0, 0, 1;
-  Neighbors neighbors(4, 3);
-  neighbors << 1, 2, 3, 0, 2, 3, 0, 1, 3, 0, 1, 2;
-  const Neighbors kept = same_sheet_neighbors(neighbors, normals, 0.5);
-  EXPECT_EQ(kept.row(0), (Eigen::RowVector<Index, 3>(2, 3, -1)));
-  EXPECT_EQ(kept.row(1), (Eigen::RowVector<Index, 3>(-1, -1, -1)));
-}
-
 TEST(Neighbors, RefuseABadContract) {
   const Coordinates points = random_points(5, 3, 1);
   EXPECT_THROW(nearest_neighbors(points, 0), InvalidArgument);

@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hdpea_cpp/manifold_extraction.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <numeric>
+#include <tuple>
+
+#include "hdpea_cpp/errors.hpp"
+#include "hdpea_cpp/incremental_manifold.hpp"
+#include "hdpea_cpp/mesh_pieces.hpp"
+
+namespace hdpea {
+namespace {
+
+using Verdict = IncrementalManifold::Verdict;
+
+double radians(double degrees) { return degrees * std::numbers::pi / 180; }
+
+double circumradius(const CoordinatesRef& x, const Triangle& t) {
+  const double a = (x.row(t[1]) - x.row(t[2])).norm();
+  const double b = (x.row(t[2]) - x.row(t[0])).norm();
+  const double c = (x.row(t[0]) - x.row(t[1])).norm();
+  const double sixteen_squared_areas = (a + b + c) * (b + c - a) * (c + a - b) * (a + b - c);
+  if (sixteen_squared_areas <= 0) return std::numeric_limits<double>::infinity();
+  return a * b * c / std::sqrt(sixteen_squared_areas);
+}
+
+class Extractor {
+ public:
+  Extractor(const CoordinatesRef& coordinates, const PointsRef& normals, const ExtractionOptions& options)
+      : coordinates_(coordinates),
+        normals_(normals),
+        options_(options),
+        least_fold_cosine_(std::cos(radians(options.max_fold))),
+        least_normal_cosine_(std::cos(radians(options.max_normal_angle))),
+        mesh_(coordinates.rows()) {}
+
+  void insert_candidates(const Candidates& candidates);
+  ExtractedMesh finish();
+
+ private:
+  struct Candidate {
+    Triangle triangle;
+    int count;
+    double radius;
+    /// Best first; the triangle itself breaks ties.
+    auto rank() const { return std::tuple(-count, radius, triangle); }
+  };
+
+  Eigen::Vector3d position(Index i) const { return coordinates_.row(i).head<3>().transpose(); }
+  Eigen::Vector3d face_normal(const Triangle& t) const {
+    return (position(t[1]) - position(t[0])).cross(position(t[2]) - position(t[0])).normalized();
+  }
+  bool agrees_with_points(const Triangle& triangle) const;
+  bool folds_back(const Triangle& triangle) const;
+  bool touches_enough(const Triangle& triangle) const;
+  /// Counts what is refused for good; returns whether the triangle went in.
+  bool try_insert(const Candidate& candidate);
+  void sweep_t12(std::vector<Candidate> waiting);
+
+  const CoordinatesRef& coordinates_;
+  const PointsRef& normals_;
+  const ExtractionOptions& options_;
+  double least_fold_cosine_, least_normal_cosine_;
+  IncrementalManifold mesh_;
+  ExtractionCounts counts_;
+};
+
+bool Extractor::agrees_with_points(const Triangle& triangle) const {
+  const Eigen::Vector3d normal = face_normal(triangle);
+  double best = 0;  // at a crease a face lies in the plane of one of its points only
+  for (Index i : triangle) best = std::max(best, std::abs(normals_.row(i).dot(normal.transpose())));
+  return best >= least_normal_cosine_;
+}
+
+bool Extractor::folds_back(const Triangle& triangle) const {
+  const Eigen::Vector3d normal = face_normal(triangle);
+  for (int i = 0; i < 3; ++i) {
+    const Index a = triangle[i], b = triangle[(i + 1) % 3];
+    const Index neighbor = mesh_.faces_at(a, b)[0];
+    if (neighbor < 0) continue;
+    const Triangle& other = mesh_.triangles()[neighbor];
+    const double cosine = normal.dot(face_normal(other));
+    if ((IncrementalManifold::opposite_parity(triangle, other, a, b) ? -cosine : cosine) < least_fold_cosine_)
+      return true;
+  }
+  return false;
+}
+
+bool Extractor::touches_enough(const Triangle& triangle) const {
+  int shared = 0;
+  Index opposite = -1;
+  for (int i = 0; i < 3; ++i) {
+    if (mesh_.faces_at(triangle[i], triangle[(i + 1) % 3])[0] < 0) continue;
+    ++shared;
+    opposite = triangle[(i + 2) % 3];
+  }
+  return shared >= 2 || (shared == 1 && mesh_.faces_of(opposite).empty());
+}
+
+bool Extractor::try_insert(const Candidate& candidate) {
+  if (options_.max_circumradius > 0 && candidate.radius > options_.max_circumradius)
+    return ++counts_.refused_size, false;
+  if (!agrees_with_points(candidate.triangle)) return ++counts_.refused_normal, false;
+  switch (mesh_.check(candidate.triangle)) {
+    case Verdict::crowded_edge:
+      return ++counts_.refused_edge, false;
+    case Verdict::broken_link:
+      return ++counts_.refused_link, false;
+    case Verdict::not_orientable:
+      return ++counts_.refused_orientation, false;
+    case Verdict::fits:
+      mesh_.insert(candidate.triangle);
+  }
+  return true;
+}
+
+void Extractor::sweep_t12(std::vector<Candidate> waiting) {
+  bool entered = true;
+  while (entered) {
+    entered = false;
+    std::vector<Candidate> later;
+    for (const Candidate& candidate : waiting) {
+      if (!touches_enough(candidate.triangle)) {
+        later.push_back(candidate);
+      } else if (folds_back(candidate.triangle)) {
+        ++counts_.refused_fold;
+      } else if (try_insert(candidate)) {
+        ++counts_.t12_kept;
+        entered = true;
+      }
+    }
+    waiting.swap(later);
+  }
+  counts_.refused_loose = static_cast<Index>(waiting.size());
+}
+
+void Extractor::insert_candidates(const Candidates& candidates) {
+  std::vector<Candidate> t3, t12;
+  for (Index t = 0; t < candidates.triangles.rows(); ++t) {
+    const Triangle triangle{candidates.triangles(t, 0), candidates.triangles(t, 1), candidates.triangles(t, 2)};
+    (candidates.counts(t) == 3 ? t3 : t12)
+        .push_back({triangle, candidates.counts(t), circumradius(coordinates_, triangle)});
+  }
+  const auto better = [](const Candidate& a, const Candidate& b) { return a.rank() < b.rank(); };
+  std::sort(t3.begin(), t3.end(), better);
+  std::sort(t12.begin(), t12.end(), better);
+  counts_.t3 = static_cast<Index>(t3.size());
+  counts_.t12 = static_cast<Index>(t12.size());
+  for (const Candidate& candidate : t3) counts_.t3_kept += try_insert(candidate);
+  sweep_t12(std::move(t12));
+}
+
+ExtractedMesh Extractor::finish() {
+  const Index face_count = static_cast<Index>(mesh_.triangles().size());
+  std::vector<Index> piece(static_cast<std::size_t>(face_count)), size(piece.size(), 0);
+  std::vector<double> outward(piece.size(), 0.0);  // of the representative's orientation
+  std::vector<char> flipped(piece.size());
+  for (Index f = 0; f < face_count; ++f) {
+    const Triangle& t = mesh_.triangles()[f];
+    std::tie(piece[f], flipped[f]) = mesh_.piece_of(f);
+    const Eigen::Vector3d area = (position(t[1]) - position(t[0])).cross(position(t[2]) - position(t[0]));
+    const double agreement = (normals_.row(t[0]) + normals_.row(t[1]) + normals_.row(t[2])).dot(area.transpose());
+    outward[piece[f]] += flipped[f] ? -agreement : agreement;
+    ++size[piece[f]];
+  }
+  std::vector<Triangle> kept;
+  for (Index f = 0; f < face_count; ++f) {
+    if (size[piece[f]] < options_.min_component_faces) {
+      ++counts_.dropped_faces;
+      counts_.dropped_components += piece[f] == f;
+      continue;
+    }
+    Triangle t = mesh_.triangles()[f];
+    if ((flipped[f] != 0) != (outward[piece[f]] < 0)) std::swap(t[1], t[2]);
+    kept.push_back(t);
+  }
+  ExtractedMesh extracted;
+  counts_.split_vertices = split_pinched_vertices(kept, coordinates_.rows(), extracted.faces, extracted.sources);
+  extracted.counts = counts_;
+  return extracted;
+}
+
+}  // namespace
+
+ExtractedMesh extract_manifold(const CoordinatesRef& coordinates, const PointsRef& normals,
+                               const Candidates& candidates, const ExtractionOptions& options) {
+  require(coordinates.cols() >= 3 && coordinates.rows() == normals.rows(),
+          "coordinates must be (n, d >= 3) and normals (n, 3)");
+  require(candidates.triangles.rows() == candidates.counts.size(), "each candidate needs a count");
+  require(options.max_fold > 0 && options.max_normal_angle > 0 && options.max_circumradius >= 0,
+          "the limits of the extraction must be positive");
+  Extractor extractor(coordinates, normals, options);
+  extractor.insert_candidates(candidates);
+  return extractor.finish();
+}
+
+}  // namespace hdpea
