@@ -2,24 +2,42 @@
 """One options dataclass per stage: the only home of every default.
 
 The command line, the Python signatures and the report read these fields; ``help`` is the text that
-``hdpea reconstruct --help`` shows. This module imports nothing heavy, so that help stays instant.
+``hdpea reconstruct --help`` shows. An illegal value is a ``UsageError`` the moment it is given.
+This module imports nothing heavy, so that help stays instant.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import Field, dataclass, field, fields
 from typing import Any
 
+from hdpea.errors import UsageError
 from hdpea.lengths import Length
 
 
 def option(default: Any, help: str, **metadata: Any) -> Any:
-    """Return a dataclass field that carries its help text (and ``choices``, if only some values are legal)."""
+    """Return a dataclass field that carries its help text and what is legal: ``choices`` or a ``minimum``."""
     return field(default=default, metadata={"help": help, **metadata})
 
 
+def _check(field: Field[Any], value: Any) -> None:
+    choices, minimum = field.metadata.get("choices"), field.metadata.get("minimum")
+    if choices is not None and value not in choices:
+        raise UsageError(f"{field.name} is one of {', '.join(choices)}, not {value!r}.")
+    # Written so that NaN is refused too.
+    if minimum is not None and value is not None and not value >= minimum:
+        raise UsageError(f"{field.name} is at least {minimum}, not {value}.")
+
+
 @dataclass(frozen=True)
-class NormalOptions:
+class _Checked:
+    def __post_init__(self) -> None:
+        for each in fields(self):
+            _check(each, getattr(self, each.name))
+
+
+@dataclass(frozen=True)
+class NormalOptions(_Checked):
     """How normals are had (``hdpea.normals``)."""
 
     normals: str = option(
@@ -27,11 +45,11 @@ class NormalOptions:
         "auto: the file's where they are usable, else estimated; file: the file's or fail; estimate: always estimate",
         choices=("auto", "file", "estimate"),
     )
-    normal_neighbors: int = option(16, "nearest points whose plane gives an estimated normal")
+    normal_neighbors: int = option(16, "nearest points whose plane gives an estimated normal", minimum=3)
 
 
 @dataclass(frozen=True)
-class EmbeddingOptions:
+class EmbeddingOptions(_Checked):
     """How the cloud is embedded in R^8 (``hdpea.embedding``)."""
 
     embedding: str = option("direct", "direct: solved for on this cloud, no training", choices=("direct",))
@@ -41,41 +59,46 @@ class EmbeddingOptions:
     bending_length: Length | None = option(
         None, "length below which the embedding does not bend, as 0.02 or 1%; default: from the vertex budget"
     )
-    metric_scale: float = option(1.0, "c of the metric s^2 = c |k|: larger stretches more")
-    max_stretch: float = option(8.0, "largest stretch of the metric in any direction")
+    metric_scale: float = option(1.0, "c of the metric s^2 = c |k|: larger stretches more", minimum=0)
+    max_stretch: float = option(8.0, "largest stretch of the metric in any direction", minimum=1)
 
 
 @dataclass(frozen=True)
-class ParticleOptions:
+class ParticleOptions(_Checked):
     """How the vertices are spread (``hdpea.particles``)."""
 
-    iterations: int = option(100, "steps of the particles' energy descent")
-    seed: int = option(0, "seed of everything random; the same seed gives the same bytes")
+    iterations: int = option(100, "steps of the particles' energy descent", minimum=0)
+    seed: int = option(0, "seed of everything random; the same seed gives the same bytes", minimum=0)
 
 
 @dataclass(frozen=True)
-class MeshingOptions:
+class MeshingOptions(_Checked):
     """How the particles become a mesh (``hdpea.meshing``)."""
 
-    vertices: int | None = option(None, "vertices wanted; default: one for every 8 points")
-    faces: int | None = option(None, "faces wanted, instead of --vertices")
+    vertices: int | None = option(None, "vertices wanted; default: one for every 8 points", minimum=4)
+    faces: int | None = option(None, "faces wanted, instead of --vertices", minimum=4)
     fill_holes: Length | None = option(
         None, "fill holes up to this size across, as 0.02 or 1%; default: 4 times the vertex spacing; 0: none"
     )
     watertight: bool = option(False, "close every hole, whatever its size")
-    min_component: int = option(16, "drop connected pieces of fewer faces than this")
+    min_component: int = option(16, "drop connected pieces of fewer faces than this", minimum=0)
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        if self.vertices is not None and self.faces is not None:
+            raise UsageError("Vertices and faces exclude each other.", "Ask for one; the other follows from it.")
 
 
 @dataclass(frozen=True)
-class RefinementOptions:
+class RefinementOptions(_Checked):
     """How the mesh is fitted to the points afterwards (``hdpea.refinement``)."""
 
     refine: bool = option(True, "fit the vertices to the points by least squares")
-    rounds: int = option(2, "rounds of projection and fitting")
+    rounds: int = option(2, "rounds of projection and fitting", minimum=0)
 
 
 @dataclass(frozen=True)
-class Options:
+class Options(_Checked):
     """Everything ``hdpea.reconstruct`` can be told."""
 
     normals: NormalOptions = NormalOptions()
@@ -83,4 +106,4 @@ class Options:
     particles: ParticleOptions = ParticleOptions()
     meshing: MeshingOptions = MeshingOptions()
     refinement: RefinementOptions = RefinementOptions()
-    threads: int = option(0, "threads to use; 0: all cores (the result is the same for any number)")
+    threads: int = option(0, "threads to use; 0: all cores (the result is the same for any number)", minimum=0)

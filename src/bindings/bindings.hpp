@@ -14,9 +14,13 @@ using namespace nb::literals;
 using ReleaseGil = nb::call_guard<nb::gil_scoped_release>;
 
 void register_errors(nb::module_& module);
+void register_farthest_point_sampling(nb::module_& module);
+void register_mesh_check(nb::module_& module);
 void register_neighbors(nb::module_& module);
 void register_embedding(nb::module_& module);
 void register_manifold_extraction(nb::module_& module);
 void register_parallel(nb::module_& module);
+void register_refinement(nb::module_& module);
 void register_restricted_voronoi(nb::module_& module);
 void register_sheets(nb::module_& module);
+void register_surface_distance(nb::module_& module);

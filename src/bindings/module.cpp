@@ -4,10 +4,14 @@
 NB_MODULE(_core, module) {
   module.doc() = "The compiled core of hdpea: arrays in, arrays out.";
   register_errors(module);
+  register_farthest_point_sampling(module);
+  register_mesh_check(module);
   register_neighbors(module);
   register_embedding(module);
   register_manifold_extraction(module);
   register_parallel(module);
+  register_refinement(module);
   register_restricted_voronoi(module);
   register_sheets(module);
+  register_surface_distance(module);
 }

@@ -1,0 +1,78 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What can go wrong, by whose fault it is; each kind is one exit code of the command."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import ClassVar
+
+
+class HdpeaError(Exception):
+    """An error to be told to the user: one clear sentence, and a hint what to do about it.
+
+    Raised itself (exit code 1) where nothing but hdpea or the machine is to blame.
+    """
+
+    exit_code: ClassVar[int] = 1
+
+    def __init__(self, message: str, hint: str = "") -> None:
+        super().__init__(message)
+        self.message = message
+        self.hint = hint
+
+
+class UsageError(HdpeaError):
+    """The caller asked for something illegal: an option, a combination, an output that cannot be written."""
+
+    exit_code = 2
+
+
+class UnreadableInput(HdpeaError):
+    """The input is missing, damaged, of an unknown format or holds no points."""
+
+    exit_code = 3
+
+
+class CannotReconstruct(HdpeaError):
+    """The points were read, but no surface can be made of them."""
+
+    exit_code = 4
+
+
+class QualityMissed(HdpeaError):
+    """The mesh was made and written, but is not what was asked for."""
+
+    exit_code = 5
+
+
+class Interrupted(HdpeaError):
+    """The user, or a progress callback, asked to stop."""
+
+    exit_code = 130
+
+    def __init__(self) -> None:
+        super().__init__("Interrupted; no output was written.")
+
+
+@contextmanager
+def core_errors_translated() -> Iterator[None]:
+    """Turn what the compiled core throws into the errors of this module.
+
+    Wrap every public function that calls the core; nesting does no harm.
+    """
+    try:
+        yield
+    except MemoryError as error:
+        raise HdpeaError("There is not enough memory.", "`hdpea info` says what a run needs.") from error
+    except (ValueError, RuntimeError) as error:
+        # Imported this late because the command line must start without the core.
+        from hdpea import _core
+
+        if isinstance(error, _core.InvalidArgument):
+            raise UsageError(str(error)) from error
+        if isinstance(error, _core.CannotReconstruct):
+            raise CannotReconstruct(str(error)) from error
+        if isinstance(error, _core.Cancelled):
+            raise Interrupted from error
+        raise

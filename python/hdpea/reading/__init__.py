@@ -1,0 +1,95 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Point clouds from files and from standard input."""
+
+from __future__ import annotations
+
+import re
+import sys
+from collections.abc import Callable
+from difflib import get_close_matches
+from pathlib import Path, PurePath
+
+from hdpea.errors import UnreadableInput
+from hdpea.reading.arrays import parse_npy, parse_npz
+from hdpea.reading.cloud import PointCloud, cleaned
+from hdpea.reading.meshes import parse_obj, parse_off
+from hdpea.reading.ply import parse_ply
+from hdpea.reading.text import parse_text
+
+__all__ = ["PointCloud", "parse_points", "read_points"]
+
+_FORMATS: list[tuple[re.Pattern[bytes], Callable[[bytes], PointCloud]]] = [
+    (re.compile(rb"ply\s"), parse_ply),
+    (re.compile(rb"\x93NUMPY"), parse_npy),
+    (re.compile(rb"PK\x03\x04"), parse_npz),
+    (re.compile(rb"(\s|#[^\n]*\n)*(ST)?C?N?OFF\b"), parse_off),
+    (re.compile(rb"(\s|#[^\n]*\n)*((o|g|s|mtllib|usemtl)\s[^\n]*\n\s*)*v\s"), parse_obj),
+]
+_FOREIGN = {
+    b"LASF": "LAS/LAZ",
+    b"ASTM-E57": "E57",
+    b"# .PCD": "PCD",
+    b"glTF": "glTF",
+    b"\x1f\x8b": "gzip",
+    b"solid": "STL",
+}
+_READABLE = "hdpea reads PLY, XYZ/TXT/CSV/PTS/PWN text, OBJ, OFF, NPY and NPZ; convert the file to one of these."
+
+
+def read_points(path: str | PurePath) -> PointCloud:
+    """Read a point cloud; ``-`` is standard input.
+
+    The format is told by the content, so a wrong extension does no harm; ``.pwn`` and ``.xyzn``
+    only say that columns 4 to 6 of a text are normals.
+
+    Returns
+    -------
+    PointCloud
+        Cleaned: finite and distinct points, unit normals.
+
+    Raises
+    ------
+    UnreadableInput
+        If the file is missing, cannot be opened, is damaged, of an unknown format, or has no points.
+    """
+    name = "standard input" if str(path) == "-" else str(path)
+    data = sys.stdin.buffer.read() if str(path) == "-" else _read_bytes(Path(path))
+    try:
+        return cleaned(parse_points(data, Path(path).suffix.lower()))
+    except UnreadableInput as error:
+        raise UnreadableInput(f"Cannot read {name}: {error.message}", error.hint) from error
+
+
+def _read_bytes(path: Path) -> bytes:
+    try:
+        return path.read_bytes()
+    except FileNotFoundError as error:
+        folder = path.parent
+        near = get_close_matches(path.name, [each.name for each in folder.iterdir()], 1) if folder.is_dir() else []
+        hint = f"Did you mean {folder / near[0]}?" if near else "Check the spelling and the folder."
+        raise UnreadableInput(f"There is no file {path}.", hint) from error
+    except IsADirectoryError as error:
+        raise UnreadableInput(f"{path} is a folder, not a file.", "Give one file of points.") from error
+    except OSError as error:
+        raise UnreadableInput(f"Cannot read {path}: {error.strerror}.", "Check its permissions.") from error
+
+
+def parse_points(data: bytes, extension: str = "") -> PointCloud:
+    """Read the content of a file, as ``read_points`` does, without dropping anything.
+
+    Raises
+    ------
+    UnreadableInput
+        If the content is damaged, of an unknown format, or empty.
+    """
+    if not data or data.isspace():
+        raise UnreadableInput("it is empty.", _READABLE)
+    for magic, parse in _FORMATS:
+        if magic.match(data):
+            return parse(data)
+    for prefix, foreign in _FOREIGN.items():
+        if data.startswith(prefix):
+            raise UnreadableInput(f"it is a {foreign} file.", _READABLE)
+    if b"\0" in data[:4096]:
+        raise UnreadableInput("its format is unknown.", _READABLE)
+    return parse_text(data, normals_expected=extension in {".pwn", ".xyzn"})

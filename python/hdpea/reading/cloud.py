@@ -1,0 +1,120 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The point cloud as it comes out of a file, and what is thrown out on the way."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field, replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hdpea.errors import UnreadableInput
+
+NORMAL_NAMES = (("nx", "ny", "nz"), ("normal_x", "normal_y", "normal_z"), ("normalx", "normaly", "normalz"))
+
+MESH_NOTE = "The file is a mesh; its vertices are taken as points, its faces are not used."
+
+
+@dataclass(frozen=True)
+class PointCloud:
+    """Points in the frame and units of their file, with what the file says about each.
+
+    Attributes
+    ----------
+    points
+        (n, 3) float64; once cleaned: finite and distinct.
+    normals
+        (n, 3) float64 or None; once cleaned: of length 1, or 0 where unusable, and None if none is usable.
+    attributes
+        Every other per-point array of the file by name, (n, ...), unchanged.
+    format
+        The kind of file, for people to read.
+    notes
+        What a user should know about how the file was understood, in sentences.
+    dropped_non_finite, dropped_duplicates
+        How many points were thrown out, and why.
+    unusable_normals
+        How many of the kept points came with a normal that is zero or not finite.
+    """
+
+    points: NDArray[np.float64]
+    normals: NDArray[np.float64] | None = None
+    attributes: Mapping[str, NDArray[Any]] = field(default_factory=dict)
+    format: str = "arrays"
+    notes: tuple[str, ...] = ()
+    dropped_non_finite: int = 0
+    dropped_duplicates: int = 0
+    unusable_normals: int = 0
+
+
+def from_columns(columns: Mapping[str, NDArray[Any]], format: str, notes: Iterable[str] = ()) -> PointCloud:
+    """Sort named columns, each (n,), into coordinates, normals and attributes.
+
+    Raises
+    ------
+    UnreadableInput
+        If there is no x, y or z.
+    """
+    lowered = {name.lower(): name for name in columns}
+
+    def take(names: tuple[str, ...]) -> NDArray[np.float64] | None:
+        if not all(name in lowered for name in names):
+            return None
+        return np.stack([np.asarray(columns[lowered.pop(name)], dtype=np.float64) for name in names], axis=1)
+
+    points = take(("x", "y", "z"))
+    if points is None:
+        found = ", ".join(columns) or "none"
+        raise UnreadableInput(f"there are no columns x, y and z (found: {found}).", "Rename the columns.")
+    normals = next((taken for names in NORMAL_NAMES if (taken := take(names)) is not None), None)
+    attributes = {name: columns[name] for name in lowered.values()}
+    return PointCloud(points, normals, attributes, format, tuple(notes))
+
+
+def cleaned(cloud: PointCloud) -> PointCloud:
+    """Drop and count points that are not finite or occur twice (the first stays); normalise the normals.
+
+    Raises
+    ------
+    UnreadableInput
+        If no point is left.
+    """
+    if len(cloud.points) == 0:
+        raise UnreadableInput("there are no points in it.", "Check that the export of the points succeeded.")
+    finite = np.flatnonzero(np.isfinite(cloud.points).all(axis=1))
+    if len(finite) == 0:
+        raise UnreadableInput(
+            f"none of its {len(cloud.points)} points is finite.", "NaN and infinite points are dropped."
+        )
+    kept = finite[first_occurrences(cloud.points[finite])]
+    normals = None if cloud.normals is None else unit_or_zero(cloud.normals[kept])
+    usable = 0 if normals is None else int(normals.any(axis=1).sum())
+    return replace(
+        cloud,
+        points=np.ascontiguousarray(cloud.points[kept]),
+        normals=normals if usable else None,
+        attributes={name: values[kept] for name, values in cloud.attributes.items()},
+        dropped_non_finite=len(cloud.points) - len(finite),
+        dropped_duplicates=len(finite) - len(kept),
+        unusable_normals=0 if normals is None else len(kept) - usable,
+    )
+
+
+def first_occurrences(rows: NDArray[np.float64]) -> NDArray[np.int64]:
+    """Return the ascending indices (m,) of the rows (n, d) that equal no earlier row."""
+    order = np.lexsort(rows.T)
+    ordered = rows[order]
+    # The sort is stable, so the first of each run of equal rows is the first in the file too.
+    starts_run = np.ones(len(rows), dtype=bool)
+    starts_run[1:] = (ordered[1:] != ordered[:-1]).any(axis=1)
+    return np.sort(order[starts_run])
+
+
+def unit_or_zero(vectors: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return the vectors (n, 3) at length 1; those that are zero or not finite become zero."""
+    with np.errstate(invalid="ignore", over="ignore", divide="ignore"):
+        lengths = np.linalg.norm(vectors, axis=1, keepdims=True)
+        usable = np.isfinite(lengths) & (lengths > 0)
+        return np.where(usable, vectors / lengths, 0.0)

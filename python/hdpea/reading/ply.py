@@ -1,0 +1,80 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""PLY, text and binary, with any properties."""
+
+from __future__ import annotations
+
+import io
+import re
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from plyfile import PlyData, PlyListProperty, PlyParseError
+
+from hdpea.errors import UnreadableInput
+from hdpea.reading.cloud import MESH_NOTE, PointCloud, from_columns
+from hdpea.reading.tables import parse_table
+
+_FORMAT_NAMES = {"<": "binary little-endian PLY", ">": "binary big-endian PLY", "=": "text PLY"}
+_ELEMENT = re.compile(rb"^element[ \t]+(\S+)[ \t]+(\d+)", re.MULTILINE)
+_END_OF_HEADER = re.compile(rb"^end_header[ \t]*(\r\n|\n|\r)", re.MULTILINE)
+
+
+def parse_ply(data: bytes) -> PointCloud:
+    """Read the vertices of a PLY file with all their scalar properties.
+
+    Raises
+    ------
+    UnreadableInput
+        If the file is damaged, ends early, or has no vertices with x, y and z.
+    """
+    try:
+        end = _END_OF_HEADER.search(data)
+        body_start = end.end() if end else len(data)
+        head = data[:body_start]
+        # The library reads the header only: over a body of text, or over a stream, it walks value by value.
+        header = PlyData.read(io.BytesIO(_ELEMENT.sub(rb"element \1 0", head)))
+        counts = {name.decode(): int(count) for name, count in _ELEMENT.findall(head)}
+        if not counts.get("vertex"):
+            raise UnreadableInput("there are no points in it.", "PLY points are elements named 'vertex'.")
+        if _is_plain(header):
+            columns = _read_plain(header, data, body_start, counts["vertex"])
+        else:
+            columns = _by_name(PlyData.read(io.BytesIO(data))["vertex"].data)
+    except (PlyParseError, ValueError) as error:
+        raise UnreadableInput(f"it is damaged ({error}).", "It may have been cut off while being copied.") from error
+    return from_columns(columns, _FORMAT_NAMES[header.byte_order], [MESH_NOTE] if counts.get("face") else [])
+
+
+def _is_plain(header: PlyData) -> bool:
+    """Say whether the vertices come first and each takes the same room."""
+    return header.elements[0].name == "vertex" and not any(
+        isinstance(each, PlyListProperty) for each in header["vertex"].properties
+    )
+
+
+def _read_plain(header: PlyData, data: bytes, body_start: int, count: int) -> dict[str, NDArray[Any]]:
+    vertex = header["vertex"]
+    if header.text:
+        lines = data[body_start:].decode().splitlines()[:count]
+        table = parse_table(lines, data[:body_start].count(b"\n") + 1, len(vertex.properties))
+        # Coordinates keep the digits of the text even where the header calls them float.
+        columns = {each.name: _as_declared(table[:, i], each.dtype()) for i, each in enumerate(vertex.properties)}
+        found = len(table)
+    else:
+        dtype = np.dtype(vertex.dtype(header.byte_order))
+        found = min(count, (len(data) - body_start) // dtype.itemsize)
+        columns = _by_name(np.frombuffer(data, dtype, found, body_start))
+    if found < count:
+        raise UnreadableInput(
+            f"it ends after {found} of its {count} points.", "It may have been cut off while being copied."
+        )
+    return columns
+
+
+def _as_declared(column: NDArray[np.float64], dtype: str) -> NDArray[Any]:
+    return column if np.dtype(dtype).kind == "f" else column.astype(dtype)
+
+
+def _by_name(table: NDArray[np.void]) -> dict[str, NDArray[Any]]:
+    return {name: table[name] for name in table.dtype.names or () if table.dtype[name].kind != "O"}
