@@ -83,11 +83,10 @@ demo: setup $(DEMO)/hippo1.ply
 
 test: lint core sanitize pytest
 
-# mypy checks the installed package, where the stub of the compiled core lies beside the modules.
 lint: setup
 	$(BIN)/ruff check
 	$(BIN)/ruff format --check
-	$(BIN)/mypy -p hdpea
+	$(BIN)/mypy
 	$(BIN)/clang-format --dry-run -Werror $(CPP_SOURCES)
 
 format: $(VENV)/.dependencies

@@ -24,12 +24,12 @@ from typing import Any
 import click
 import numpy as np
 import trimesh
+from hdpea.picture import draw
 from numpy.typing import NDArray
 
 from hdpea import _core, reconstruct
-from hdpea.io import write_mesh
 from hdpea.options import EmbeddingOptions, MeshingOptions, Options
-from hdpea.picture import draw
+from hdpea.writing import write_mesh
 
 ROOT = Path(__file__).resolve().parent.parent
 POINTS = 40_000
