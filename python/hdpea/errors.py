@@ -52,7 +52,7 @@ class Interrupted(HdpeaError):
     exit_code = 130
 
     def __init__(self) -> None:
-        super().__init__("Interrupted; no output was written.")
+        super().__init__("Interrupted; nothing half-written is left.")
 
 
 @contextmanager

@@ -49,7 +49,7 @@ def test_other_properties_are_kept_by_name(tmp_path: Path) -> None:
 
 def test_ply_whose_vertices_hold_lists_is_read(tmp_path: Path) -> None:
     text = "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\nproperty float z\n"
-    (tmp_path / "lists.ply").write_text(text + "property list uchar int seen\nend_header\n0 0 1 2 5 6\n1 0 0 1 7\n")
+    (tmp_path / "lists.ply").write_text(text + "property list uchar int seen\nend_header\n0 0 1 2 5 6\n1 0 0 0\n")
     assert read_points(tmp_path / "lists.ply").points.tolist() == [[0, 0, 1], [1, 0, 0]]
 
 

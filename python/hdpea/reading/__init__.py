@@ -4,10 +4,16 @@
 from __future__ import annotations
 
 import re
+import struct
 import sys
+import zlib
 from collections.abc import Callable
 from difflib import get_close_matches
 from pathlib import Path, PurePath
+from tokenize import TokenError
+from zipfile import BadZipFile
+
+from plyfile import PlyParseError
 
 from hdpea.errors import UnreadableInput
 from hdpea.reading.arrays import parse_npy, parse_npz
@@ -25,6 +31,22 @@ _FORMATS: list[tuple[re.Pattern[bytes], Callable[[bytes], PointCloud]]] = [
     (re.compile(rb"(\s|#[^\n]*\n)*(ST)?C?N?OFF\b"), parse_off),
     (re.compile(rb"(\s|#[^\n]*\n)*((o|g|s|mtllib|usemtl)\s[^\n]*\n\s*)*v\s"), parse_obj),
 ]
+# What the libraries that read those formats raise over nonsense.
+DAMAGE = (
+    PlyParseError,
+    ValueError,
+    LookupError,
+    TypeError,
+    ArithmeticError,
+    OSError,
+    EOFError,
+    SyntaxError,
+    TokenError,
+    BadZipFile,
+    RuntimeError,
+    struct.error,
+    zlib.error,
+)
 _FOREIGN = {
     b"LASF": "LAS/LAZ",
     b"ASTM-E57": "E57",
@@ -86,7 +108,11 @@ def parse_points(data: bytes, extension: str = "") -> PointCloud:
         raise UnreadableInput("it is empty.", _READABLE)
     for magic, parse in _FORMATS:
         if magic.match(data):
-            return parse(data)
+            try:
+                return parse(data)
+            except DAMAGE as error:
+                hint = "It may have been cut off while being copied."
+                raise UnreadableInput(f"it is damaged ({error}).", hint) from error
     for prefix, foreign in _FOREIGN.items():
         if data.startswith(prefix):
             raise UnreadableInput(f"it is a {foreign} file.", _READABLE)

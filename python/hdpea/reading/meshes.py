@@ -27,7 +27,7 @@ def parse_obj(data: bytes) -> PointCloud:
     normals = parse_table(_after_keyword(text, "vn"))
     names = ["x", "y", "z", *(_COLORS if vertices.shape[1] == 6 else ["w"])]
     columns = columns_by_name(names[: vertices.shape[1]], vertices)
-    if len(normals) == len(vertices):
+    if normals.shape == (len(vertices), 3):
         columns |= columns_by_name(["nx", "ny", "nz"], normals)
     notes = [MESH_NOTE] if re.search(r"^\s*f\s", text, re.MULTILINE) else []
     return from_columns(columns, "OBJ", notes)

@@ -5,15 +5,17 @@ from __future__ import annotations
 
 import io
 import re
+import warnings
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from plyfile import PlyData, PlyListProperty, PlyParseError
+from plyfile import PlyData, PlyListProperty
 
 from hdpea.errors import UnreadableInput
 from hdpea.reading.cloud import MESH_NOTE, PointCloud, from_columns
-from hdpea.reading.tables import parse_table
+from hdpea.reading.tables import columns_by_name, parse_table
 
 _FORMAT_NAMES = {"<": "binary little-endian PLY", ">": "binary big-endian PLY", "=": "text PLY"}
 _ELEMENT = re.compile(rb"^element[ \t]+(\S+)[ \t]+(\d+)", re.MULTILINE)
@@ -26,23 +28,19 @@ def parse_ply(data: bytes) -> PointCloud:
     Raises
     ------
     UnreadableInput
-        If the file is damaged, ends early, or has no vertices with x, y and z.
+        If the file ends early, or has no vertices with x, y and z.
+    plyfile.PlyParseError
+        If its header is damaged.
     """
-    try:
-        end = _END_OF_HEADER.search(data)
-        body_start = end.end() if end else len(data)
-        head = data[:body_start]
-        # The library reads the header only: over a body of text, or over a stream, it walks value by value.
-        header = PlyData.read(io.BytesIO(_ELEMENT.sub(rb"element \1 0", head)))
-        counts = {name.decode(): int(count) for name, count in _ELEMENT.findall(head)}
-        if not counts.get("vertex"):
-            raise UnreadableInput("there are no points in it.", "PLY points are elements named 'vertex'.")
-        if _is_plain(header):
-            columns = _read_plain(header, data, body_start, counts["vertex"])
-        else:
-            columns = _by_name(PlyData.read(io.BytesIO(data))["vertex"].data)
-    except (PlyParseError, ValueError) as error:
-        raise UnreadableInput(f"it is damaged ({error}).", "It may have been cut off while being copied.") from error
+    end = _END_OF_HEADER.search(data)
+    body_start = end.end() if end else len(data)
+    head = data[:body_start]
+    # The library reads the header only: over a body of text, or over a stream, it walks value by value.
+    header = PlyData.read(io.BytesIO(_ELEMENT.sub(rb"element \1 0", head)))
+    counts = {name.decode(): int(count) for name, count in _ELEMENT.findall(head)}
+    if not counts.get("vertex"):
+        raise UnreadableInput("there are no points in it.", "PLY points are elements named 'vertex'.")
+    columns = _read_plain(header, data, body_start, counts["vertex"]) if _is_plain(header) else _read_any(data)
     return from_columns(columns, _FORMAT_NAMES[header.byte_order], [MESH_NOTE] if counts.get("face") else [])
 
 
@@ -53,13 +51,13 @@ def _is_plain(header: PlyData) -> bool:
     )
 
 
-def _read_plain(header: PlyData, data: bytes, body_start: int, count: int) -> dict[str, NDArray[Any]]:
+def _read_plain(header: PlyData, data: bytes, body_start: int, count: int) -> Mapping[str, NDArray[Any]]:
     vertex = header["vertex"]
     if header.text:
         lines = data[body_start:].decode().splitlines()[:count]
         table = parse_table(lines, data[:body_start].count(b"\n") + 1, len(vertex.properties))
-        # Coordinates keep the digits of the text even where the header calls them float.
-        columns = {each.name: _as_declared(table[:, i], each.dtype()) for i, each in enumerate(vertex.properties)}
+        # Doubles, even where the header says float: the text may hold more digits than that.
+        columns: Mapping[str, NDArray[Any]] = columns_by_name([each.name for each in vertex.properties], table)
         found = len(table)
     else:
         dtype = np.dtype(vertex.dtype(header.byte_order))
@@ -72,8 +70,11 @@ def _read_plain(header: PlyData, data: bytes, body_start: int, count: int) -> di
     return columns
 
 
-def _as_declared(column: NDArray[np.float64], dtype: str) -> NDArray[Any]:
-    return column if np.dtype(dtype).kind == "f" else column.astype(dtype)
+def _read_any(data: bytes) -> dict[str, NDArray[Any]]:
+    with warnings.catch_warnings():
+        # The library stumbles over lists of length 0, without harm.
+        warnings.simplefilter("ignore")
+        return _by_name(PlyData.read(io.BytesIO(data))["vertex"].data)
 
 
 def _by_name(table: NDArray[np.void]) -> dict[str, NDArray[Any]]:

@@ -32,9 +32,10 @@ def parse_table(lines: Sequence[str], first_line: int = 1, width: int | None = N
     UnreadableInput
         Naming the first line that does not hold `width` numbers.
     """
-    expected = width or next((len(line.split()) for line in lines if line.strip()), 0)
-    if not expected:
-        return np.empty((0, width or 0))
+    first = next((line for line in lines if line.strip()), "")
+    expected = width or len(first.split())
+    if not first:
+        return np.empty((0, expected))
     try:
         table = np.loadtxt(lines, dtype=np.float64, comments=None, ndmin=2)
     except ValueError as error:
@@ -86,7 +87,7 @@ def name_columns(table: NDArray[np.float64], normals_expected: bool = False) -> 
     if width < 3:
         raise UnreadableInput(f"it has {width} numbers per line, where x, y and z are needed.")
     names = ["x", "y", "z", *(f"column_{i + 1}" for i in range(3, width))]
-    for start in sorted({3, max(3, width - 3)}) if width >= 6 else ():
+    for start in sorted({3, max(3, width - 3)}) if width >= 6 and len(table) else ():
         if normals_expected or _look_like_normals(table[:, start : start + 3]):
             names[start : start + 3] = ["nx", "ny", "nz"]
             break
