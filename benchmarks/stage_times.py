@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Time and peak memory of the whole command, and of each stage; prints the tables of docs/performance.md.
+"""Time and peak memory of the whole command, and of each stage; prints the table of docs/performance.md.
 
     python benchmarks/stage_times.py [--points 40000,250000] [--shape knot] [--runs 3]
 
@@ -42,22 +42,32 @@ def run_once(cloud: Path, folder: Path, arguments: tuple[str, ...]) -> Run:
     return {"seconds": seconds, "memory": usage.ru_maxrss / 1024, "report": json.loads(report.read_text())}
 
 
-def print_tables(points: list[int], runs: dict[int, list[Run]]) -> None:
+def seconds_by_stage(run: Run) -> dict[str, float]:
+    """Return the seconds of each stage, those that ran twice added up, in the order of the run."""
+    seconds: dict[str, float] = {}
+    for stage in run["report"]["stages"]:
+        if stage["level"] == 0:
+            seconds[stage["name"]] = seconds.get(stage["name"], 0) + stage["seconds"]
+    return seconds
+
+
+def print_row(label: str, values: list[float], digits: int) -> None:
+    """Print a row of Markdown."""
+    click.echo(f"| {label} | " + " | ".join(f"{value:,.{digits}f}" for value in values) + " |")
+
+
+def print_table(measured: dict[int, list[Run]]) -> None:
     """Print a row for each stage and for the whole, a column for each size of cloud."""
     click.echo(f"{os.cpu_count()} cores, {platform.machine()}, Python {platform.python_version()}.\n")
-    click.echo("| seconds | " + " | ".join(f"{count:,} points" for count in points) + " |")
-    click.echo("|---|" + "---|" * len(points))
-    stages = [stage["name"] for stage in runs[points[0]][0]["report"]["stages"]]
-    for row, stage in enumerate(stages):
-        times = [median(run["report"]["stages"][row]["seconds"] for run in runs[count]) for count in points]
-        click.echo(f"| {stage} | " + " | ".join(f"{seconds:.2f}" for seconds in times) + " |")
-    for label, key, digits in (("**the whole command**", "seconds", 2), ("peak memory, MB", "memory", 0)):
-        values = [median(run[key] for run in runs[count]) for count in points]
-        click.echo(f"| {label} | " + " | ".join(f"{value:.{digits}f}" for value in values) + " |")
-    for label, key in (("vertices out", "vertices"), ("faces out", "faces")):
-        click.echo(
-            f"| {label} | " + " | ".join(f"{runs[count][0]['report']['mesh'][key]:,}" for count in points) + " |"
-        )
+    click.echo("| seconds | " + " | ".join(f"{count:,} points" for count in measured) + " |")
+    click.echo("|---|" + "---|" * len(measured))
+    stages = [[seconds_by_stage(run) for run in runs] for runs in measured.values()]
+    for name in stages[0][0]:
+        print_row(name, [median(run[name] for run in runs) for runs in stages], 2)
+    print_row("**the whole command**", [median(run["seconds"] for run in runs) for runs in measured.values()], 2)
+    print_row("peak memory, MB", [median(run["memory"] for run in runs) for runs in measured.values()], 0)
+    for fact in ("vertices", "faces"):
+        print_row(f"{fact} out", [runs[0]["report"]["mesh"][fact] for runs in measured.values()], 0)
 
 
 @click.command(context_settings={"ignore_unknown_options": True})
@@ -75,7 +85,7 @@ def main(points: str, shape: str, runs: int, arguments: tuple[str, ...]) -> None
             cloud = folder / "cloud.ply"
             subprocess.run([sys.executable, str(SHAPES), shape, str(cloud), "--points", str(count)], check=True)
             measured[count] = [run_once(cloud, folder, arguments) for _ in range(runs)]
-    print_tables(counts, measured)
+    print_table(measured)
 
 
 if __name__ == "__main__":

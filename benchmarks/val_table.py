@@ -24,11 +24,11 @@ from typing import Any
 import click
 import numpy as np
 import trimesh
-from hdpea.picture import draw
 from numpy.typing import NDArray
 
 from hdpea import _core, reconstruct
 from hdpea.options import EmbeddingOptions, MeshingOptions, Options
+from hdpea.picture import draw_mesh
 from hdpea.writing import write_mesh
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -82,12 +82,12 @@ def run_mesh(task: Task) -> Row:
     if task.save:
         write_mesh(task.save / f"{name}.ply", result.vertices, result.faces)
         if task.picture:
-            draw(task.save / f"{name}.png", result.vertices, result.faces)
+            draw_mesh(task.save / f"{name}.png", result.vertices, result.faces)
 
     row: Row = {"mesh": name, "target": task.options.meshing.vertices, "peer": OURS, "status": "ok"}
     row |= metrics.evaluate(result.vertices, result.faces, truth, seed)
     row["manifold"] = int(_core.check_mesh(result.vertices, result.faces).manifold)
-    row["T3"] = result.report["meshing"]["t3"] / len(result.faces)
+    row["T3"] = result.report.meshing["t3"] / len(result.faces)
     return row | {"seconds": seconds}
 
 
