@@ -88,6 +88,12 @@ class MeshingOptions(_Checked):
         if self.vertices is not None and self.faces is not None:
             raise UsageError("Vertices and faces exclude each other.", "Ask for one; the other follows from it.")
 
+    def vertices_of(self, points: int) -> int:
+        """Return how many vertices to make of so many points: a closed mesh has two faces for each."""
+        if self.vertices is not None:
+            return self.vertices
+        return self.faces // 2 + 2 if self.faces is not None else max(points // 8, 12)
+
 
 @dataclass(frozen=True)
 class RefinementOptions(_Checked):

@@ -1,0 +1,85 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Embedding a surface in R^8, where its curvature metric is Euclidean.
+
+Every way of embedding is one function ``(surface, vertices, options, progress) -> Embedded`` in a module of
+its own, listed in ``EMBEDDERS``; the other stages see the coordinates only.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hdpea.embedding.direct import embed_directly
+from hdpea.embedding.embedded import Embedded
+from hdpea.errors import core_errors_translated
+from hdpea.frame import UnitFrame
+from hdpea.normals import oriented_surface
+from hdpea.options import EmbeddingOptions, Options
+from hdpea.progress import ProgressCallback, of_phase
+from hdpea.reading.cloud import PointCloud, cleaned
+from hdpea.surface import Surface
+
+Embedder = Callable[[Surface, int, EmbeddingOptions, Callable[[float], bool]], Embedded]
+
+EMBEDDERS: dict[str, Embedder] = {"direct": embed_directly}
+
+
+@dataclass(frozen=True)
+class Embedding:
+    """A cloud and its coordinates in R^8.
+
+    Attributes
+    ----------
+    points
+        (n, 3) float64 in world units: finite and distinct, in the order given.
+    normals
+        (n, 3) float64, unit, consistently oriented.
+    coordinates
+        (n, 8) float64: the points in the unit frame, then psi.
+    world_from_unit
+        The unit frame.
+    """
+
+    points: NDArray[np.float64]
+    normals: NDArray[np.float64]
+    coordinates: NDArray[np.float64]
+    world_from_unit: UnitFrame
+
+
+def embed_surface(
+    surface: Surface, vertices: int, options: EmbeddingOptions, progress: ProgressCallback | None = None
+) -> Embedded:
+    """Embed an oriented surface at the scale that a mesh of so many `vertices` can show."""
+    with core_errors_translated():
+        return EMBEDDERS[options.embedding](surface, vertices, options, of_phase(progress, "embedding"))
+
+
+def embed_points(
+    points: NDArray[np.float64],
+    normals: NDArray[np.float64] | None = None,
+    options: Options | None = None,
+    progress: ProgressCallback | None = None,
+) -> Embedding:
+    """Embed a cloud in R^8.
+
+    Parameters
+    ----------
+    points
+        (n, 3) in world units; what is not finite or occurs twice is dropped.
+    normals
+        (n, 3), of any length and sign; estimated where missing.
+
+    Raises
+    ------
+    CannotReconstruct
+        If the points are too few, equal or on a line.
+    """
+    options = options or Options()
+    cloud = cleaned(PointCloud(points, normals))
+    surface = oriented_surface(cloud.points, cloud.normals, options.normals, progress).surface
+    embedded = embed_surface(surface, options.meshing.vertices_of(len(cloud.points)), options.embedding, progress)
+    return Embedding(cloud.points, surface.normals, embedded.coordinates, surface.frame)

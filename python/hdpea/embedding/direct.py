@@ -1,0 +1,84 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The direct embedding: curvature and triangles from the points themselves, then the core's solver."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hdpea import _core
+from hdpea.embedding.embedded import Embedded
+from hdpea.lengths import Length
+from hdpea.options import EmbeddingOptions
+from hdpea.report import Choice
+from hdpea.surface import Surface
+
+BENDING_PER_SPACING = 0.7
+"""Bending length in spacings of the vertices to come: finer, and the tangent disks of neighbours disagree."""
+
+CURVATURE_PER_SPACING = 0.9
+"""Curvature radius in the same spacings: a little more than the embedding can follow."""
+
+
+@dataclass(frozen=True)
+class Soup:
+    """Tangential Delaunay triangles of all points: not a mesh, but every part of the surface is covered once.
+
+    Attributes
+    ----------
+    triangles
+        (t, 3) int64.
+    weights
+        (t,) float64: the share of each triangle, a third for every one of its corners whose cell has it.
+    area
+        Of the surface.
+    """
+
+    triangles: NDArray[np.int64]
+    weights: NDArray[np.float64]
+    area: float
+
+
+def triangle_soup(surface: Surface) -> Soup:
+    """Return the restricted Delaunay triangles of the points in R^3, those of single cells (T1, T2) included."""
+    points = surface.points_in_unit
+    planes = _core.tangent_bases_across(_core.blended_normals(surface.normals, surface.neighbors))
+    # Twice the distance of the 8th neighbour holds the cell, however uneven the sampling.
+    eighth = np.where(surface.neighbors[:, 7] < 0, surface.neighbors[:, 0], surface.neighbors[:, 7])
+    radii = 2 * np.maximum(np.linalg.norm(points[eighth] - points, axis=1), surface.spacing)
+    candidates = _core.restricted_voronoi_candidates(points, planes, surface.neighbors, radii)
+    return Soup(candidates.triangles, candidates.counts / 3, float(candidates.cell_areas.sum()))
+
+
+def embed_directly(
+    surface: Surface, vertices: int, options: EmbeddingOptions, progress: Callable[[float], bool]
+) -> Embedded:
+    """Return the embedding [p, psi] of a surface, at the scale of a mesh of so many `vertices`.
+
+    Curvature is fitted to the normals, a soup of tangential Delaunay triangles stands in for a mesh, and
+    psi is solved for on it (``solve_embedding`` of the core).
+    """
+    points, normals = surface.points_in_unit, surface.normals
+    soup = triangle_soup(surface)
+    spacing = float(np.sqrt(soup.area / vertices))
+    choices: list[Choice] = []
+
+    def choose(name: str, given: Length | None, per_spacing: float) -> float:
+        if given is not None:
+            return surface.frame.length_to_unit(given)
+        chosen = per_spacing * spacing
+        why = f"{per_spacing:g} of the spacing of {vertices} vertices on the surface"
+        choices.append(Choice(name, chosen * surface.frame.diagonal, "world units", why))
+        return chosen
+
+    solver = _core.EmbeddingOptions()
+    solver.bending_length = choose("bending_length", options.bending_length, BENDING_PER_SPACING)
+    solver.metric_scale = options.metric_scale
+    solver.max_stretch = options.max_stretch
+    radius = choose("curvature_radius", options.curvature_radius, CURVATURE_PER_SPACING)
+    curvature = _core.estimate_curvature(points, normals, surface.neighbors, radius)
+    psi = _core.solve_embedding(points, normals, curvature, soup.triangles, soup.weights, solver, progress)
+    return Embedded(np.hstack([points, psi]), tuple(choices))

@@ -1,0 +1,117 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""From particles to a manifold mesh: restricted Voronoi cells, extraction, holes."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from math import inf
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hdpea import _core
+from hdpea.errors import CannotReconstruct, core_errors_translated
+from hdpea.frame import UnitFrame
+from hdpea.options import MeshingOptions
+from hdpea.particles import Particles
+from hdpea.report import Choice
+from hdpea.surface import Surface
+
+DISK_RADIUS = 1.6
+"""Radius of the disks in mean distances of the particles in R^d."""
+
+MAX_CIRCUMRADIUS = 1.2
+"""Largest circumradius of a face in R^d, in disk radii."""
+
+HOLES_FILLED = 4.0
+"""Size of the largest hole that is filled unasked, in spacings of the vertices in R^3."""
+
+
+@dataclass(frozen=True)
+class Mesh:
+    """A triangle mesh in the unit frame.
+
+    Attributes
+    ----------
+    vertices_in_unit
+        (v, 3) float64.
+    faces
+        (f, 3) int64, counter-clockwise seen from outside; edge- and vertex-manifold.
+    statistics
+        What became of the candidate triangles and of the holes, by name.
+    choices
+        The lengths that were chosen automatically, in world units.
+    """
+
+    vertices_in_unit: NDArray[np.float64]
+    faces: NDArray[np.int64]
+    statistics: dict[str, int | float] = field(default_factory=dict)
+    choices: tuple[Choice, ...] = ()
+
+
+def extract_mesh(
+    particles: Particles, bases: NDArray[np.float64], surface: Surface, options: MeshingOptions | None = None
+) -> Mesh:
+    """Join particles to a mesh.
+
+    Parameters
+    ----------
+    bases
+        (n, 2, d) tangent bases of the cloud; a particle takes that of its nearest point.
+    surface
+        Where the normals come from.
+
+    Raises
+    ------
+    CannotReconstruct
+        If no triangle can be made.
+    """
+    options = options or MeshingOptions()
+    with core_errors_translated():
+        normals = np.ascontiguousarray(surface.normals[particles.nearest])
+        candidates, radius = voronoi_candidates(particles, bases)
+        limits = _core.ExtractionOptions()
+        limits.max_circumradius = MAX_CIRCUMRADIUS * radius
+        limits.min_component_faces = options.min_component
+        extracted = _core.extract_manifold(particles.coordinates, normals, candidates, limits)
+        if len(extracted.faces) == 0:
+            raise CannotReconstruct(
+                "No triangle holds on these points.", "They may be too few or too noisy; try fewer vertices."
+            )
+        vertices = np.ascontiguousarray(particles.coordinates[extracted.sources, :3])
+        return _fill_holes(vertices, extracted, surface.frame, options)
+
+
+def voronoi_candidates(particles: Particles, bases: NDArray[np.float64]) -> tuple[_core.Candidates, float]:
+    """Return the triangles dual to the particles' restricted Voronoi cells, and the disks' radius in R^d."""
+    x = particles.coordinates
+    neighbors = _core.nearest_neighbors(x, 40)
+    radius = DISK_RADIUS * float(np.linalg.norm(x[neighbors[:, 0]] - x, axis=1).mean())
+    flat_bases = bases[particles.nearest].reshape(len(x), -1)
+    return _core.restricted_voronoi_candidates(x, flat_bases, neighbors, np.full(len(x), radius)), radius
+
+
+def _fill_holes(
+    vertices: NDArray[np.float64], extracted: _core.ExtractedMesh, frame: UnitFrame, options: MeshingOptions
+) -> Mesh:
+    choices: tuple[Choice, ...] = ()
+    if options.watertight:
+        size = inf
+    elif options.fill_holes is not None:
+        size = frame.length_to_unit(options.fill_holes)
+    else:
+        size = HOLES_FILLED * float(np.sqrt(_area(vertices, extracted.faces) / len(vertices)))
+        why = f"{HOLES_FILLED:g} spacings of the vertices"
+        choices = (Choice("fill_holes", size * frame.diagonal, "world units", why),)
+    filled = _core.fill_holes(vertices, extracted.faces, size)
+    statistics: dict[str, int | float] = {
+        name: getattr(extracted.counts, name) for name in dir(extracted.counts) if not name.startswith("_")
+    }
+    statistics["holes_filled"] = filled.filled
+    statistics["holes_left"] = filled.left
+    return Mesh(filled.vertices, filled.faces, statistics, choices)
+
+
+def _area(vertices: NDArray[np.float64], faces: NDArray[np.int64]) -> float:
+    a, b, c = (vertices[faces[:, corner]] for corner in range(3))
+    return float(np.linalg.norm(np.cross(b - a, c - a), axis=1).sum() / 2)

@@ -1,0 +1,92 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Normals: taken from the file where they are usable, else estimated; always consistently oriented."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hdpea import _core
+from hdpea.errors import UnreadableInput, core_errors_translated
+from hdpea.frame import UnitFrame
+from hdpea.options import NormalOptions
+from hdpea.progress import ProgressCallback, tell
+from hdpea.surface import NEIGHBORS, Surface, require_surface
+
+TRUSTED_CONSISTENCY = 0.9
+"""Share of neighbours in agreement from which the file's orientation is taken as it is; random signs have 0.5."""
+
+
+@dataclass(frozen=True)
+class OrientedSurface:
+    """A surface, and how it came by its normals.
+
+    Attributes
+    ----------
+    estimated
+        How many normals had to be estimated.
+    consistency
+        Share of neighbours whose given normals agreed in orientation; None without given normals.
+    reoriented
+        Whether the orientation was made anew.
+    """
+
+    surface: Surface
+    estimated: int
+    consistency: float | None
+    reoriented: bool
+
+
+def oriented_surface(
+    points_in_world: NDArray[np.float64],
+    normals: NDArray[np.float64] | None = None,
+    options: NormalOptions | None = None,
+    progress: ProgressCallback | None = None,
+) -> OrientedSurface:
+    """Move a cloud to its unit frame and give it consistently oriented normals.
+
+    Given normals keep their directions; their signs are kept only if neighbours agree about them, so a
+    cloud whose normals point both ways gives the same surface as one that is well oriented.
+
+    Parameters
+    ----------
+    points_in_world
+        (n, 3) float64, finite and distinct.
+    normals
+        (n, 3) float64 of length 1, or 0 where unusable.
+
+    Raises
+    ------
+    CannotReconstruct
+        If the points are too few, equal or on a line.
+    UnreadableInput
+        If the file's normals are insisted on and some are unusable.
+    """
+    options = options or NormalOptions()
+    usable = np.zeros(len(points_in_world), dtype=bool) if normals is None else normals.any(axis=1)
+    if options.normals == "file" and not usable.all():
+        raise UnreadableInput(
+            f"{int((~usable).sum())} points have no usable normal.", "Use --normals auto to estimate those."
+        )
+    if options.normals == "estimate":
+        usable[:] = False
+    frame = UnitFrame.around(points_in_world)
+    points = frame.to_unit(points_in_world)
+    require_surface(points)
+    tell(progress, "normals", 0)
+    with core_errors_translated():
+        neighbors = _core.nearest_neighbors(points, NEIGHBORS)
+        nearest = np.ascontiguousarray(neighbors[:, : options.normal_neighbors])
+        directions = np.zeros_like(points) if normals is None else normals.copy()
+        if not usable.all():
+            directions[~usable] = _core.estimate_normals(points, nearest)[~usable]
+        tell(progress, "normals", 0.5)
+        consistency = _core.orientation_consistency(points, directions, nearest) if usable.any() else None
+        trusted = usable.all() and consistency is not None and consistency >= TRUSTED_CONSISTENCY
+        if not trusted:
+            directions = _core.orient_normals(points, directions, nearest)
+    tell(progress, "normals", 1)
+    surface = Surface.of(frame, points, directions, neighbors)
+    return OrientedSurface(surface, int((~usable).sum()), consistency, not trusted)

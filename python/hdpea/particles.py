@@ -1,0 +1,141 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Particles that spread evenly over the embedded surface: the vertices to be."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hdpea import _core
+from hdpea.errors import core_errors_translated
+from hdpea.options import ParticleOptions
+
+if TYPE_CHECKING:
+    import torch
+
+KERNEL_WIDTH = 0.32
+"""sigma in units of sqrt(area / particles) (paper, section B)."""
+
+INTERACTIONS = 16
+"""Particles that push each particle; the kernel is negligible beyond."""
+
+REFRESH = 5
+"""Steps after which they are searched for anew."""
+
+STEP, DECAY, DECAY_EVERY = 2.0, 0.6, 20
+"""First step in units of sigma^2 times the force, and its decay (paper, section E)."""
+
+STRIDES = 12
+"""Neighbours among which a particle's nearest cloud point is followed from step to step."""
+
+
+@dataclass(frozen=True)
+class Particles:
+    """Evenly spread points of the embedded surface.
+
+    Attributes
+    ----------
+    coordinates
+        (m, d) float64; the first three columns are positions in the unit frame.
+    nearest
+        (m,) int64: the cloud point in whose tangent plane each particle lies.
+    """
+
+    coordinates: NDArray[np.float64]
+    nearest: NDArray[np.int64]
+
+
+class _Cloud:
+    """The embedded surface as particles see it: points, tangent planes, and steps to neighbours."""
+
+    def __init__(
+        self, coordinates: NDArray[np.float64], bases: NDArray[np.float64], neighbors: NDArray[np.int64]
+    ) -> None:
+        import torch
+
+        itself = np.arange(len(coordinates))[:, None]
+        strides = np.where(neighbors[:, :STRIDES] < 0, itself, neighbors[:, :STRIDES])
+        self.points = torch.from_numpy(coordinates)  # (n, d)
+        self.bases = torch.from_numpy(bases)  # (n, 2, d)
+        self.strides = torch.from_numpy(np.hstack([itself, strides]))  # (n, 1 + k)
+        # A particle leaves its point by no more than this, lest it walk off an open border.
+        sixth = self.points[self.strides[:, 6]]
+        self.reach = (sixth - self.points).norm(dim=1)  # (n,)
+
+    def project(self, x: torch.Tensor, nearest: torch.Tensor) -> tuple[torch.Tensor, torch.Tensor]:
+        """Return particles (m, d) projected to the surface, and their nearest points (m,).
+
+        The nearest point is looked for among the neighbours *along the surface* of the last one, so a
+        particle cannot jump to the other side of a thin wall.
+        """
+        nearby = self.strides[nearest]  # (m, 1 + k)
+        squared_distances = (self.points[nearby] - x[:, None]).square().sum(dim=-1)  # (m, 1 + k)
+        nearest = nearby.gather(1, squared_distances.argmin(dim=1, keepdim=True))[:, 0]  # (m,)
+        base, basis = self.points[nearest], self.bases[nearest]  # (m, d), (m, 2, d)
+        offset = (basis @ (x - base)[:, :, None]).mT  # (m, 1, 2)
+        length = offset.norm(dim=2, keepdim=True).clamp_min(1e-300)
+        offset = offset * (self.reach[nearest][:, None, None] / length).clamp_max(1)
+        return base + (offset @ basis)[:, 0], nearest
+
+
+def spread_particles(
+    coordinates: NDArray[np.float64],
+    bases: NDArray[np.float64],
+    neighbors: NDArray[np.int64],
+    count: int,
+    options: ParticleOptions | None = None,
+    progress: Callable[[float], bool] | None = None,
+) -> Particles:
+    """Spread `count` particles evenly over a surface in R^d.
+
+    From farthest-point samples, particles descend the energy ``sum exp(-|x_i - x_j|^2 / 4 sigma^2)`` by its
+    closed-form force, and are projected to the tangent plane of the nearest point after each step (paper,
+    sections 3.2, A and B). ``sigma = 0.32 sqrt(area / count)``, with the area of the restricted Voronoi
+    cells: the paper's estimate counts every neighbourhood twelve times.
+
+    Parameters
+    ----------
+    coordinates
+        (n, d) float64, n >= count.
+    bases
+        (n, 2, d) float64, orthonormal.
+    neighbors
+        (n, k >= 12) int64 along the surface, nearest first, padded with -1.
+    """
+    import torch
+
+    options = options or ParticleOptions()
+    with core_errors_translated():
+        seeds = _core.farthest_point_sampling(coordinates, count, options.seed % len(coordinates))
+        squared_width = KERNEL_WIDTH**2 * _surface_area(coordinates[seeds], bases[seeds]) / count
+        cloud = _Cloud(coordinates, bases, neighbors)
+        nearest = torch.from_numpy(seeds)  # (m,)
+        x = cloud.points[nearest]  # (m, d)
+        for step in range(options.iterations):
+            if progress is not None and not progress(step / options.iterations):
+                raise _core.Cancelled("cancelled")
+            if step % REFRESH == 0:
+                others = torch.from_numpy(_core.nearest_neighbors(x.numpy(), min(INTERACTIONS, count - 1)))  # (m, k)
+            size = STEP * DECAY ** (step // DECAY_EVERY)
+            x, nearest = cloud.project(x + size * _force(x, others, squared_width), nearest)
+    return Particles(x.numpy(), nearest.numpy())
+
+
+def _force(x: torch.Tensor, others: torch.Tensor, squared_width: float) -> torch.Tensor:
+    """Return sigma^2 times the force on each particle (m, d): the negative gradient of its energy."""
+    apart = x[:, None] - x[others]  # (m, k, d)
+    kernel = (apart.square().sum(dim=-1) / (-4 * squared_width)).exp()  # (m, k)
+    return (kernel[:, None] @ apart)[:, 0]
+
+
+def _surface_area(seeds: NDArray[np.float64], bases: NDArray[np.float64]) -> float:
+    """Return the area of the seeds' restricted Voronoi cells (m, d), with disks large enough to hold them."""
+    neighbors = _core.nearest_neighbors(seeds, 40)
+    spacing = np.linalg.norm(seeds[neighbors[:, 0]] - seeds, axis=1).mean()
+    flat_bases = bases.reshape(len(seeds), -1)
+    radii = np.full(len(seeds), 2 * spacing)
+    return float(_core.restricted_voronoi_candidates(seeds, flat_bases, neighbors, radii).cell_areas.sum())

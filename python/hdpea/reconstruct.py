@@ -1,0 +1,182 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""All stages, one after the other: a cloud enters, a mesh leaves."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hdpea import _core
+from hdpea.embedding import embed_surface
+from hdpea.errors import HdpeaError, UsageError, core_errors_translated
+from hdpea.meshing import Mesh, extract_mesh
+from hdpea.normals import OrientedSurface, oriented_surface
+from hdpea.options import Options
+from hdpea.particles import spread_particles
+from hdpea.progress import ProgressCallback, of_phase, tell
+from hdpea.reading.cloud import PointCloud, cleaned
+from hdpea.refinement import refine_mesh
+from hdpea.report import Distances, MeshFacts, Report
+from hdpea.surface import Surface
+from hdpea.tangents import tangent_bases
+from hdpea.threads import limited_threads
+
+PHASES = ("normals", "embedding", "particles", "meshing", "refinement", "measuring")
+"""The phases that ``progress`` hears of, in order."""
+
+BUDGET_TOLERANCE = 0.01
+"""Share of the vertices or faces asked for by which the mesh may miss them."""
+
+ATTEMPTS = 3
+"""How often the particles are counted anew to meet the budget."""
+
+
+@dataclass(frozen=True)
+class Reconstruction:
+    """A mesh, and the report of how it was made.
+
+    Attributes
+    ----------
+    vertices
+        (v, 3) float64 in world units.
+    faces
+        (f, 3) int64, counter-clockwise seen from outside. Edge- and vertex-manifold.
+    report
+        What was asked, chosen, found and measured.
+    """
+
+    vertices: NDArray[np.float64]
+    faces: NDArray[np.int64]
+    report: Report
+
+
+def reconstruct(
+    points: NDArray[np.float64],
+    normals: NDArray[np.float64] | None = None,
+    options: Options | None = None,
+    progress: ProgressCallback | None = None,
+) -> Reconstruction:
+    """Make a compact anisotropic triangle mesh of a point cloud.
+
+    Parameters
+    ----------
+    points
+        (n, 3) in any unit and frame; what is not finite or occurs twice is dropped.
+    normals
+        (n, 3) of any length and sign; estimated where missing, zero or not finite.
+    options
+        All stages' options.
+    progress
+        Called with a phase of ``PHASES`` and the fraction of it done; returning False cancels.
+
+    Raises
+    ------
+    CannotReconstruct
+        If the points are too few, equal, on a line, or hold no triangle.
+    UsageError
+        If more vertices are asked for than there are points.
+    Interrupted
+        If `progress` cancelled.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> directions = np.random.default_rng(0).normal(size=(2000, 3))
+    >>> sphere = directions / np.linalg.norm(directions, axis=1, keepdims=True)
+    >>> mesh = reconstruct(sphere)
+    >>> mesh.report.mesh.closed
+    True
+    """
+    options = options or Options()
+    report = Report(options)
+    with limited_threads(options.threads), core_errors_translated():
+        cloud = cleaned(PointCloud(np.asarray(points, dtype=np.float64), normals))
+        with report.clock.stage("normals"):
+            oriented = oriented_surface(cloud.points, cloud.normals, options.normals, progress)
+        _tell_of_cloud(report, cloud, oriented)
+        mesh = _mesh_of(oriented.surface, report, progress)
+        with report.clock.stage("measuring"):
+            tell(progress, "measuring", 0)
+            _measure(mesh, oriented.surface, report)
+            tell(progress, "measuring", 1)
+    return Reconstruction(oriented.surface.frame.to_world(mesh.vertices_in_unit), mesh.faces, report)
+
+
+def _tell_of_cloud(report: Report, cloud: PointCloud, oriented: OrientedSurface) -> None:
+    report.counts["points"] = len(cloud.points)
+    report.counts["dropped_not_finite"] = cloud.dropped_non_finite
+    report.counts["dropped_duplicates"] = cloud.dropped_duplicates
+    report.counts["normals_estimated"] = oriented.estimated
+    if oriented.estimated:
+        report.notes.append(f"Normals of {oriented.estimated} points were estimated.")
+    if oriented.reoriented and oriented.consistency is not None:
+        share = f"{oriented.consistency:.0%} of neighbours agreed"
+        report.notes.append(f"The given normals point both ways ({share}); they were oriented anew.")
+
+
+def _mesh_of(surface: Surface, report: Report, progress: ProgressCallback | None) -> Mesh:
+    """Embed, spread, join and fit; spread again with another count where the budget was missed."""
+    options, points = report.options, len(surface.points_in_unit)
+    vertices = options.meshing.vertices_of(points)
+    if vertices > points:
+        raise UsageError(
+            f"{vertices} vertices were asked for, but there are {points} distinct points.",
+            "Ask for at most half as many vertices as there are points.",
+        )
+    with report.clock.stage("embedding"):
+        embedded = embed_surface(surface, vertices, options.embedding, progress)
+        bases = tangent_bases(embedded.coordinates, surface.neighbors)
+    count = vertices
+    for _ in range(ATTEMPTS):
+        with report.clock.stage("particles"):
+            spread = of_phase(progress, "particles")
+            particles = spread_particles(
+                embedded.coordinates, bases, surface.neighbors, count, options.particles, spread
+            )
+        with report.clock.stage("meshing"):
+            tell(progress, "meshing", 0)
+            mesh = extract_mesh(particles, bases, surface, options.meshing)
+            tell(progress, "meshing", 1)
+        missed = _budget_missed(mesh, options)
+        if abs(missed - 1) <= BUDGET_TOLERANCE:
+            break
+        count = min(round(count * missed), points)
+    with report.clock.stage("refinement"):
+        mesh = refine_mesh(mesh, surface, options.refinement, of_phase(progress, "refinement"))
+    report.choices += [*embedded.choices, *mesh.choices]
+    report.meshing.update(mesh.statistics)
+    return mesh
+
+
+def _budget_missed(mesh: Mesh, options: Options) -> float:
+    """Return what was asked for over what was achieved; 1 if nothing was asked for."""
+    if options.meshing.vertices is not None:
+        return options.meshing.vertices / len(mesh.vertices_in_unit)
+    return options.meshing.faces / len(mesh.faces) if options.meshing.faces is not None else 1.0
+
+
+def _measure(mesh: Mesh, surface: Surface, report: Report) -> None:
+    """Check the mesh and measure it against the points; a mesh that is not manifold never leaves."""
+    check = _core.check_mesh(mesh.vertices_in_unit, mesh.faces)
+    if not (check.manifold and check.oriented):
+        raise HdpeaError("The mesh is not manifold.", "This is an error in hdpea: please report it with the input.")
+    report.mesh = MeshFacts(
+        vertices=check.vertices,
+        faces=check.faces,
+        manifold=check.manifold,
+        closed=check.closed,
+        components=check.components,
+        boundary_loops=check.boundary_loops,
+        genus=check.genus if check.closed else None,
+        self_intersections=_core.count_self_intersections(mesh.vertices_in_unit, mesh.faces),
+    )
+    feet = _core.closest_surface_points(mesh.vertices_in_unit, mesh.faces, surface.points_in_unit)
+    diagonal = surface.frame.diagonal
+    report.distances = Distances.of(feet.distance * diagonal, surface.spacing * diagonal)
+    wanted = _budget_missed(mesh, report.options)
+    if abs(wanted - 1) > BUDGET_TOLERANCE:
+        report.missed.append(f"The budget was missed by {abs(1 / wanted - 1):.1%}.")
+    if report.options.meshing.watertight and not check.closed:
+        report.missed.append(f"The mesh is not watertight: {check.boundary_loops} boundary loops are left.")
