@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hdpea_cpp/manifold_extraction.hpp"
+
+#include <gtest/gtest.h>
+
+#include "clouds.hpp"
+#include "hdpea_cpp/errors.hpp"
+#include "hdpea_cpp/mesh_check.hpp"
+#include "hdpea_cpp/neighbors.hpp"
+#include "hdpea_cpp/tangent_basis.hpp"
+
+namespace hdpea {
+namespace {
+
+ExtractedMesh mesh_of(const clouds::Cloud& cloud, double radius, const ExtractionOptions& options = {}) {
+  const Candidates candidates = restricted_voronoi_candidates(cloud.points, tangent_bases_across(cloud.normals),
+                                                              nearest_neighbors(cloud.points, 40),
+                                                              Eigen::VectorXd::Constant(cloud.points.rows(), radius));
+  return extract_manifold(cloud.points, cloud.normals, candidates, options);
+}
+
+MeshCheck check_of(const ExtractedMesh& mesh, const clouds::Cloud& cloud) {
+  Points vertices(mesh.sources.size(), 3);
+  for (Index v = 0; v < vertices.rows(); ++v) vertices.row(v) = cloud.points.row(mesh.sources(v));
+  return check_mesh(vertices, mesh.faces);
+}
+
+TEST(ManifoldExtraction, MakesASphereClosedAndFacingOut) {
+  const auto sphere = clouds::sphere(1000);
+  const ExtractedMesh mesh = mesh_of(sphere, 0.3);
+  const MeshCheck check = check_of(mesh, sphere);
+  EXPECT_TRUE(check.manifold() && check.oriented() && check.closed());
+  EXPECT_EQ(check.euler_characteristic, 2);
+  for (Index f = 0; f < mesh.faces.rows(); ++f) {
+    const Eigen::RowVector3d a = sphere.points.row(mesh.faces(f, 0)), b = sphere.points.row(mesh.faces(f, 1)),
+                             c = sphere.points.row(mesh.faces(f, 2));
+    EXPECT_GT((b - a).cross(c - a).dot(a + b + c), 0);
+  }
+}
+
+TEST(ManifoldExtraction, KeepsTheBordersOfACylinderOpen) {
+  const auto cylinder = clouds::cylinder(2000, 0.5, 2);
+  const MeshCheck check = check_of(mesh_of(cylinder, 0.12), cylinder);
+  EXPECT_TRUE(check.manifold() && check.oriented());
+  EXPECT_EQ(check.components, 1);
+  EXPECT_EQ(check.euler_characteristic, 0);
+}
+
+TEST(ManifoldExtraction, TwoSheetsStayTwo) {
+  const auto sheets = clouds::joined(clouds::plane(1000), clouds::plane(1000, 0.1));
+  EXPECT_EQ(check_of(mesh_of(sheets, 0.06), sheets).components, 2);
+}
+
+TEST(ManifoldExtraction, DoesNotDependOnTheSignsOfTheNormals) {
+  auto sphere = clouds::sphere(800);
+  const Faces faces = mesh_of(sphere, 0.3).faces;
+  for (Index i = 0; i < 400; i += 3) sphere.normals.row(i) *= -1;  // fewer than half
+  EXPECT_EQ(mesh_of(sphere, 0.3).faces, faces);
+}
+
+TEST(ManifoldExtraction, DropsSmallPiecesAndSaysSo) {
+  ExtractionOptions options;
+  options.min_component_faces = 1'000'000;
+  const ExtractedMesh mesh = mesh_of(clouds::sphere(500), 0.4, options);
+  EXPECT_EQ(mesh.faces.rows(), 0);
+  EXPECT_EQ(mesh.counts.dropped_components, 1);
+}
+
+TEST(ManifoldExtraction, StricterLimitsKeepFewerFaces) {
+  const auto sphere = clouds::sphere(500);
+  ExtractionOptions strict;
+  strict.max_circumradius = 0.07;
+  const ExtractedMesh all = mesh_of(sphere, 0.4), small = mesh_of(sphere, 0.4, strict);
+  EXPECT_LT(small.faces.rows(), all.faces.rows());
+  EXPECT_GT(small.counts.refused_size, 0);
+}
+
+TEST(ManifoldExtraction, AccountsForEveryCandidate) {
+  const ExtractionCounts c = mesh_of(clouds::cylinder(2000, 0.5, 2), 0.12).counts;
+  EXPECT_EQ(c.t3 + c.t12, c.t3_kept + c.t12_kept + c.refused_edge + c.refused_link + c.refused_orientation +
+                              c.refused_fold + c.refused_normal + c.refused_size + c.refused_loose);
+}
+
+TEST(ManifoldExtraction, RefusesLimitsThatAreNone) {
+  ExtractionOptions options;
+  options.max_fold = 0;
+  EXPECT_THROW(mesh_of(clouds::sphere(100), 0.5, options), InvalidArgument);
+}
+
+}  // namespace
+}  // namespace hdpea
