@@ -5,6 +5,7 @@ NB_MODULE(_core, module) {
   module.doc() = "The compiled core of hdpea: arrays in, arrays out.";
   register_errors(module);
   register_farthest_point_sampling(module);
+  register_hole_filling(module);
   register_mesh_check(module);
   register_neighbors(module);
   register_embedding(module);

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hdpea_cpp/hole_filling.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "hdpea_cpp/errors.hpp"
+#include "hdpea_cpp/mesh_check.hpp"
+#include "shapes.hpp"
+
+namespace hdpea {
+namespace {
+
+constexpr double kEverything = std::numeric_limits<double>::infinity();
+
+/// The faces of a mesh without those whose centre `is_hole`.
+template <class IsHole>
+Faces without(const shapes::Mesh& mesh, IsHole is_hole) {
+  std::vector<Eigen::RowVector<Index, 3>> kept;
+  for (Index f = 0; f < mesh.faces.rows(); ++f) {
+    const Eigen::RowVector3d centre = (mesh.vertices.row(mesh.faces(f, 0)) + mesh.vertices.row(mesh.faces(f, 1)) +
+                                       mesh.vertices.row(mesh.faces(f, 2))) /
+                                      3;
+    if (!is_hole(centre)) kept.push_back(mesh.faces.row(f));
+  }
+  Faces faces(static_cast<Index>(kept.size()), 3);
+  for (Index f = 0; f < faces.rows(); ++f) faces.row(f) = kept[f];
+  return faces;
+}
+
+bool sound(const FilledMesh& mesh) {
+  const MeshCheck check = check_mesh(mesh.vertices, mesh.faces);
+  return check.manifold() && check.oriented();
+}
+
+TEST(HoleFilling, ClosesATorusWithTwoHoles) {
+  const auto torus = shapes::torus(40, 20);
+  const Faces faces = without(torus, [](const auto& p) { return std::abs(p.x()) > 1.2 && std::abs(p.y()) < 0.3; });
+  const FilledMesh filled = fill_holes(torus.vertices, faces, kEverything);
+  EXPECT_EQ(filled.filled, 2);
+  EXPECT_EQ(filled.left, 0);
+  EXPECT_TRUE(sound(filled));
+  const MeshCheck check = check_mesh(filled.vertices, filled.faces);
+  EXPECT_TRUE(check.closed());
+  EXPECT_EQ(check.genus(), 1);
+}
+
+TEST(HoleFilling, LeavesWhatIsLargerThanTheLimit) {
+  const auto grid = shapes::grid(10, 10);
+  const Faces faces = without(grid, [](const auto& p) { return (p - Eigen::RowVector3d(0.5, 0.5, 0)).norm() < 0.15; });
+  const FilledMesh filled = fill_holes(grid.vertices, faces, 0.6);  // the grid's own border is larger
+  EXPECT_EQ(filled.filled, 1);
+  EXPECT_EQ(filled.left, 1);
+  EXPECT_TRUE(sound(filled));
+  EXPECT_EQ(filled.faces.rows(), grid.faces.rows());
+}
+
+TEST(HoleFilling, ZeroFillsNothing) {
+  const auto grid = shapes::grid(3, 3);
+  const FilledMesh filled = fill_holes(grid.vertices, grid.faces, 0);
+  EXPECT_EQ(filled.faces, grid.faces);
+  EXPECT_EQ(filled.left, 1);
+}
+
+TEST(HoleFilling, AMissingTriangleIsPutBack) {
+  const auto tetrahedron = shapes::tetrahedron();
+  const Faces open = tetrahedron.faces.topRows(3);
+  const FilledMesh filled = fill_holes(tetrahedron.vertices, open, kEverything);
+  EXPECT_EQ(filled.faces.rows(), 4);
+  EXPECT_EQ(filled.vertices.rows(), 4);
+  EXPECT_TRUE(sound(filled));
+}
+
+TEST(HoleFilling, TakesAFanWhereAPatchWouldUseAnEdgeTwice) {
+  // Two faces of a tetrahedron: either diagonal of the hole that is left is an edge already or makes a copy.
+  const auto tetrahedron = shapes::tetrahedron();
+  const FilledMesh filled = fill_holes(tetrahedron.vertices, tetrahedron.faces.topRows(2), kEverything);
+  EXPECT_TRUE(sound(filled));
+  EXPECT_TRUE(check_mesh(filled.vertices, filled.faces).closed());
+}
+
+TEST(HoleFilling, RefusesAMeshThatIsNotManifold) {
+  const auto tetrahedron = shapes::tetrahedron();
+  Faces twice(5, 3);
+  twice << tetrahedron.faces, tetrahedron.faces.row(0);
+  EXPECT_THROW(fill_holes(tetrahedron.vertices, twice, 1), InvalidArgument);
+  EXPECT_THROW(fill_holes(tetrahedron.vertices, tetrahedron.faces, -1), InvalidArgument);
+}
+
+}  // namespace
+}  // namespace hdpea
