@@ -1,2 +1,44 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Compact anisotropic triangle meshes from raw point clouds."""
+"""Compact anisotropic triangle meshes from raw point clouds.
+
+>>> from hdpea import reconstruct  # doctest: +SKIP
+>>> mesh = reconstruct(points)  # doctest: +SKIP
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from hdpea.embedding import Embedding as Embedding
+    from hdpea.embedding import embed_points as embed_points
+    from hdpea.options import Options as Options
+    from hdpea.reading import read_points as read_points
+    from hdpea.reconstruction import Reconstruction as Reconstruction
+    from hdpea.reconstruction import reconstruct as reconstruct
+    from hdpea.writing import write_mesh as write_mesh
+
+_HOMES = {
+    "Embedding": "hdpea.embedding",
+    "Options": "hdpea.options",
+    "Reconstruction": "hdpea.reconstruction",
+    "embed_points": "hdpea.embedding",
+    "read_points": "hdpea.reading",
+    "reconstruct": "hdpea.reconstruction",
+    "write_mesh": "hdpea.writing",
+}
+
+__all__ = sorted(_HOMES)
+
+
+def __getattr__(name: str) -> Any:
+    # Imported when first used: the command line must start without torch.
+    if name not in _HOMES:
+        raise AttributeError(f"module 'hdpea' has no attribute {name!r}")
+    from importlib import import_module
+
+    return getattr(import_module(_HOMES[name]), name)
+
+
+def __dir__() -> list[str]:
+    return __all__

@@ -14,6 +14,9 @@ from typing import Any
 from hdpea.errors import UsageError
 from hdpea.lengths import Length
 
+POINTS_PER_VERTEX = 8
+"""How many points share a vertex unless a number of vertices or faces is asked for."""
+
 
 def option(default: Any, help: str, **metadata: Any) -> Any:
     """Return a dataclass field that carries its help text and what is legal: ``choices`` or a ``minimum``."""
@@ -75,7 +78,9 @@ class ParticleOptions(_Checked):
 class MeshingOptions(_Checked):
     """How the particles become a mesh (``hdpea.meshing``)."""
 
-    vertices: int | None = option(None, "vertices wanted; default: one for every 8 points", minimum=4)
+    vertices: int | None = option(
+        None, f"vertices wanted; default: one for every {POINTS_PER_VERTEX} points", minimum=4
+    )
     faces: int | None = option(None, "faces wanted, instead of --vertices", minimum=4)
     fill_holes: Length | None = option(
         None, "fill holes up to this size across, as 0.02 or 1%; default: 4 times the vertex spacing; 0: none"
@@ -92,7 +97,7 @@ class MeshingOptions(_Checked):
         """Return how many vertices to make of so many points: a closed mesh has two faces for each."""
         if self.vertices is not None:
             return self.vertices
-        return self.faces // 2 + 2 if self.faces is not None else max(points // 8, 12)
+        return self.faces // 2 + 2 if self.faces is not None else max(points // POINTS_PER_VERTEX, 12)
 
 
 @dataclass(frozen=True)

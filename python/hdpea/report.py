@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from hdpea.measuring import StageClock
 from hdpea.options import Options
 from hdpea.outputs import replacing
+from hdpea.reading import PointCloud
 from hdpea.settings import as_dict
 from hdpea.version import version
 
@@ -106,6 +107,12 @@ class Report:
     notes: list[str] = field(default_factory=list)
     missed: list[str] = field(default_factory=list)
     clock: StageClock = field(default_factory=StageClock)
+
+    def begin_with(self, name: str, cloud: PointCloud, clock: StageClock) -> None:
+        """Put the reading of the input, and what it took, before everything else."""
+        self.source = {"name": name, "format": cloud.format, **cloud.counts()}
+        self.notes[:0] = cloud.notes
+        self.clock.stages[:0] = clock.stages
 
     def as_dict(self) -> dict[str, Any]:
         """Return the whole report, fit for JSON."""

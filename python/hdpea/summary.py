@@ -25,19 +25,23 @@ def _lines(report: Report) -> Iterator[str]:
 
 
 def _choice(choice: Choice) -> str:
-    value = f"{choice.value:.4g}" if isinstance(choice.value, float) else choice.value
-    return f"{choice.name}: {value} {choice.unit} ({choice.why})"
+    value = f"{choice.value:.4g}" if isinstance(choice.value, float) else str(choice.value)
+    return f"{choice.name}: {' '.join(filter(None, [value, choice.unit]))} ({choice.why})"
 
 
 def _mesh(mesh: MeshFacts) -> str:
     facts = [
-        f"{mesh.vertices:,} vertices",
-        f"{mesh.faces:,} faces",
+        _count(mesh.vertices, "vertex", "vertices"),
+        _count(mesh.faces, "face", "faces"),
         "manifold" if mesh.manifold else "NOT manifold",
-        "closed" if mesh.closed else f"{mesh.boundary_loops} boundary loop{'s' * (mesh.boundary_loops != 1)}",
-        f"{mesh.components} component{'s' * (mesh.components != 1)}",
+        "closed" if mesh.closed else _count(mesh.boundary_loops, "boundary loop", "boundary loops"),
+        _count(mesh.components, "component", "components"),
     ]
     return "mesh: " + ", ".join(facts + ([] if mesh.genus is None else [f"genus {mesh.genus}"]))
+
+
+def _count(number: int, one: str, many: str) -> str:
+    return f"{number:,} {one if number == 1 else many}"
 
 
 def _distances(distances: Distances) -> str:

@@ -4,10 +4,11 @@
 #include <CGAL/Polygon_mesh_processing/triangulate_hole.h>
 #include <CGAL/Simple_cartesian.h>
 
-#include <algorithm>
+#include <Eigen/Geometry>
+#include <array>
+#include <cmath>
 #include <iterator>
 #include <unordered_map>
-#include <unordered_set>
 #include <vector>
 
 #include "hdpea_cpp/errors.hpp"
@@ -66,19 +67,20 @@ class HoleFiller {
     return found;
   }
 
-  double size(const Loop& loop) const {
-    Eigen::RowVector3d lowest = vertices_.row(loop.front()), highest = lowest;
-    for (Index v : loop) {
-      lowest = lowest.cwiseMin(vertices_.row(v));
-      highest = highest.cwiseMax(vertices_.row(v));
+  /// Fills a hole of at most the size; returns whether it did.
+  bool fill(const Loop& loop, double max_size) {
+    const double perimeter = length(loop);
+    // No patch is smaller than the loop's vector area, so large borders need not be triangulated at all.
+    if (4 * vector_area(loop) > max_size * perimeter) return false;
+    const std::vector<PatchFace> patch = triangulated(loop);
+    if (std::isfinite(max_size) && (4 * area(loop, patch) > max_size * perimeter || folds_back(loop, patch)))
+      return false;
+    if (!fits(loop, patch)) {
+      add_fan(loop);
+    } else {
+      for (const PatchFace& face : patch) add(loop[face.corner[0]], loop[face.corner[1]], loop[face.corner[2]]);
     }
-    return (highest - lowest).norm();
-  }
-
-  void fill(const Loop& loop) {
-    std::vector<PatchFace> patch = triangulated(loop);
-    if (!fits(loop, patch)) return fill_by_fan(loop);
-    for (const PatchFace& face : patch) add(loop[face.corner[0]], loop[face.corner[1]], loop[face.corner[2]]);
+    return true;
   }
 
   FilledMesh result() const {
@@ -94,6 +96,49 @@ class HoleFiller {
 
  private:
   bool has_edge(Index from, Index to) const { return opposite_.count(directed_key(from, to)) > 0; }
+
+  double length(const Loop& loop) const {
+    double sum = 0;
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+      sum += (vertices_.row(loop[(i + 1) % loop.size()]) - vertices_.row(loop[i])).norm();
+    }
+    return sum;
+  }
+
+  double vector_area(const Loop& loop) const {
+    Eigen::RowVector3d twice = Eigen::RowVector3d::Zero();
+    for (std::size_t i = 1; i + 1 < loop.size(); ++i) twice += area_vector(loop[0], loop[i], loop[i + 1]);
+    return twice.norm() / 2;
+  }
+
+  double area(const Loop& loop, const std::vector<PatchFace>& patch) const {
+    double twice = 0;
+    for (const PatchFace& face : patch) {
+      twice += area_vector(loop[face.corner[0]], loop[face.corner[1]], loop[face.corner[2]]).norm();
+    }
+    return twice / 2;
+  }
+
+  /// Whether the patch mostly lies on the faces around it, facing the other way.
+  bool folds_back(const Loop& loop, const std::vector<PatchFace>& patch) const {
+    double sum = 0;
+    for (const PatchFace& face : patch) {
+      for (int i = 0; i < 3; ++i) {
+        const int from = face.corner[i], to = face.corner[(i + 1) % 3];
+        if ((from + 1) % static_cast<int>(loop.size()) != to) continue;
+        const Index a = loop[from], b = loop[to];
+        const Eigen::RowVector3d inside = area_vector(a, b, loop[face.corner[(i + 2) % 3]]).stableNormalized();
+        const Eigen::RowVector3d outside = area_vector(b, a, opposite_.at(directed_key(b, a))).stableNormalized();
+        sum += inside.dot(outside);
+      }
+    }
+    return sum < -0.5 * static_cast<double>(loop.size());
+  }
+
+  Eigen::RowVector3d area_vector(Index a, Index b, Index c) const {
+    const Eigen::RowVector3d origin = vertices_.row(a);
+    return (vertices_.row(b) - origin).cross(vertices_.row(c) - origin);
+  }
 
   std::vector<PatchFace> triangulated(const Loop& loop) const {
     const auto point = [&](Index v) { return Point(vertices_(v, 0), vertices_(v, 1), vertices_(v, 2)); };
@@ -132,7 +177,7 @@ class HoleFiller {
     return true;
   }
 
-  void fill_by_fan(const Loop& loop) {
+  void add_fan(const Loop& loop) {
     Eigen::RowVector3d centre = Eigen::RowVector3d::Zero();
     for (Index v : loop) centre += vertices_.row(v) / static_cast<double>(loop.size());
     const Index middle = vertices_.rows() + static_cast<Index>(centres_.size());
@@ -165,9 +210,7 @@ FilledMesh fill_holes(const PointsRef& vertices, const FacesRef& faces, double m
   Index filled = 0;
   for (std::size_t i = 0; i < loops.size(); ++i) {
     report(progress, static_cast<double>(i) / static_cast<double>(loops.size()));
-    if (max_size == 0 || filler.size(loops[i]) > max_size) continue;
-    filler.fill(loops[i]);
-    ++filled;
+    if (max_size > 0 && filler.fill(loops[i], max_size)) ++filled;
   }
   FilledMesh mesh = filler.result();
   mesh.filled = filled;

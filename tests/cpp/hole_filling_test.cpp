@@ -53,7 +53,22 @@ TEST(HoleFilling, LeavesWhatIsLargerThanTheLimit) {
   EXPECT_EQ(filled.filled, 1);
   EXPECT_EQ(filled.left, 1);
   EXPECT_TRUE(sound(filled));
-  EXPECT_EQ(filled.faces.rows(), grid.faces.rows());
+}
+
+TEST(HoleFilling, ALongSlitIsAsLargeAsItIsWide) {
+  const auto grid = shapes::grid(20, 20);
+  const Faces faces =
+      without(grid, [](const auto& p) { return std::abs(p.x() - 0.5) < 0.3 && std::abs(p.y() - 0.5) < 0.06; });
+  EXPECT_EQ(fill_holes(grid.vertices, faces, 0.25).filled, 1);
+  EXPECT_EQ(fill_holes(grid.vertices, faces, 0.1).filled, 0);
+}
+
+TEST(HoleFilling, AnOuterBorderIsNoHole) {
+  const auto grid = shapes::grid(4, 4);
+  EXPECT_EQ(fill_holes(grid.vertices, grid.faces, 100).filled, 0);
+  const FilledMesh closed = fill_holes(grid.vertices, grid.faces, kEverything);
+  EXPECT_EQ(closed.filled, 1);
+  EXPECT_TRUE(sound(closed));
 }
 
 TEST(HoleFilling, ZeroFillsNothing) {

@@ -63,6 +63,7 @@ WITH_NORMALS = {
     "colored.txt": lines(np.hstack([POINTS, 255 * abs(POINTS), NORMALS])).encode(),
     "points.obj": (lines(POINTS, prefix="v ") + lines(NORMALS, prefix="vn ") + FACES).encode(),
     "named.obj": ("# made\no thing\n" + lines(POINTS, prefix="v ") + lines(NORMALS, prefix="vn ")).encode(),
+    "normals_first.obj": (lines(NORMALS, prefix="vn ") + lines(POINTS, prefix="v ")).encode(),
     "normals.off": ("NOFF\n20 0 0\n\n" + lines(BOTH)).encode(),
     "wide.npy": npy(BOTH),
     "named.npz": saved(points=POINTS, normals=NORMALS),

@@ -29,7 +29,7 @@ _FORMATS: list[tuple[re.Pattern[bytes], Callable[[bytes], PointCloud]]] = [
     (re.compile(rb"\x93NUMPY"), parse_npy),
     (re.compile(rb"PK\x03\x04"), parse_npz),
     (re.compile(rb"(\s|#[^\n]*\n)*(ST)?C?N?OFF\b"), parse_off),
-    (re.compile(rb"(\s|#[^\n]*\n)*((o|g|s|mtllib|usemtl)\s[^\n]*\n\s*)*v\s"), parse_obj),
+    (re.compile(rb"(\s|#[^\n]*\n)*((o|g|s|mtllib|usemtl)\s[^\n]*\n\s*)*v[nt]?\s"), parse_obj),
 ]
 # What the libraries that read those formats raise over nonsense.
 DAMAGE = (
@@ -86,14 +86,21 @@ def _read_bytes(path: Path) -> bytes:
     try:
         return path.read_bytes()
     except FileNotFoundError as error:
-        folder = path.parent
-        near = get_close_matches(path.name, [each.name for each in folder.iterdir()], 1) if folder.is_dir() else []
-        hint = f"Did you mean {folder / near[0]}?" if near else "Check the spelling and the folder."
+        near = _nearest_name(path)
+        hint = f"Did you mean {near}?" if near else "Check the spelling and the folder."
         raise UnreadableInput(f"There is no file {path}.", hint) from error
     except IsADirectoryError as error:
         raise UnreadableInput(f"{path} is a folder, not a file.", "Give one file of points.") from error
     except OSError as error:
         raise UnreadableInput(f"Cannot read {path}: {error.strerror}.", "Check its permissions.") from error
+
+
+def _nearest_name(path: Path) -> Path | None:
+    try:
+        names = [each.name for each in path.parent.iterdir()]
+    except OSError:
+        return None
+    return next((path.parent / near for near in get_close_matches(path.name, names, 1, cutoff=0.75)), None)
 
 
 def parse_points(data: bytes, extension: str = "") -> PointCloud:

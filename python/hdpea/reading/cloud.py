@@ -48,6 +48,16 @@ class PointCloud:
     dropped_duplicates: int = 0
     unusable_normals: int = 0
 
+    def counts(self) -> dict[str, int]:
+        """Return how many points there are, and what was wrong with others, by name."""
+        return {
+            "points": len(self.points),
+            "dropped_non_finite": self.dropped_non_finite,
+            "dropped_duplicates": self.dropped_duplicates,
+            "usable_normals": 0 if self.normals is None else int(self.normals.any(axis=1).sum()),
+            "unusable_normals": self.unusable_normals,
+        }
+
 
 def from_columns(columns: Mapping[str, NDArray[Any]], format: str, notes: Iterable[str] = ()) -> PointCloud:
     """Sort named columns, each (n,), into coordinates, normals and attributes.
@@ -91,15 +101,27 @@ def cleaned(cloud: PointCloud) -> PointCloud:
     kept = finite[first_occurrences(cloud.points[finite])]
     normals = None if cloud.normals is None else unit_or_zero(cloud.normals[kept])
     usable = 0 if normals is None else int(normals.any(axis=1).sum())
+    non_finite, duplicates = len(cloud.points) - len(finite), len(finite) - len(kept)
+    unusable = 0 if normals is None else len(kept) - usable
     return replace(
         cloud,
         points=np.ascontiguousarray(cloud.points[kept]),
         normals=normals if usable else None,
         attributes={name: values[kept] for name, values in cloud.attributes.items()},
-        dropped_non_finite=len(cloud.points) - len(finite),
-        dropped_duplicates=len(finite) - len(kept),
-        unusable_normals=0 if normals is None else len(kept) - usable,
+        dropped_non_finite=non_finite,
+        dropped_duplicates=duplicates,
+        unusable_normals=unusable,
+        notes=cloud.notes + _cleaning_notes(non_finite, duplicates, unusable),
     )
+
+
+def _cleaning_notes(non_finite: int, duplicates: int, unusable: int) -> tuple[str, ...]:
+    told = {
+        f"Dropped points with NaN or infinite coordinates: {non_finite:,}.": non_finite,
+        f"Dropped points that occur twice: {duplicates:,}.": duplicates,
+        f"Normals that are zero or not finite, to be estimated: {unusable:,}.": unusable,
+    }
+    return tuple(note for note, count in told.items() if count)
 
 
 def first_occurrences(rows: NDArray[np.float64]) -> NDArray[np.int64]:

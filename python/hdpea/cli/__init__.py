@@ -1,0 +1,97 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The command line: ``hdpea COMMAND``; each command is the module of its name, loaded when needed."""
+
+from __future__ import annotations
+
+import os
+import sys
+import traceback
+from collections.abc import Sequence
+from importlib import import_module
+
+import click
+
+from hdpea.errors import HdpeaError, Interrupted, UsageError, core_errors_translated
+from hdpea.interrupting import prompt_interrupts
+
+COMMANDS = ("reconstruct", "embed", "info")
+TRACEBACK = "HDPEA_TRACEBACK"
+
+EPILOG = """\b
+Begin with:
+  hdpea info scan.ply
+  hdpea reconstruct scan.ply mesh.obj
+  hdpea reconstruct --help
+"""
+
+
+class LazyGroup(click.Group):
+    """A group whose commands are imported only when asked for."""
+
+    def list_commands(self, _ctx: click.Context) -> list[str]:
+        """Return the names, the most important first."""
+        return list(COMMANDS)
+
+    def get_command(self, _ctx: click.Context, name: str) -> click.Command | None:
+        """Return the ``command`` of the module of that name, None if there is none."""
+        if name not in COMMANDS:
+            return None
+        command: click.Command = import_module(f"hdpea.cli.{name}").command
+        command.name = name
+        return command
+
+
+def _print_version(ctx: click.Context, _: click.Parameter, wanted: bool) -> None:
+    if wanted:
+        from hdpea.version import version
+
+        click.echo(f"hdpea {version()}")
+        ctx.exit()
+
+
+@click.group(
+    cls=LazyGroup, epilog=EPILOG, context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100}
+)
+@click.option(
+    "--version", is_flag=True, is_eager=True, expose_value=False, callback=_print_version, help="Show the version."
+)
+@click.option("--debug", is_flag=True, help=f"Show where an error came from, as {TRACEBACK}=1 does.")
+def hdpea(debug: bool) -> None:
+    """Compact anisotropic triangle meshes from raw point clouds."""
+    if debug:
+        os.environ[TRACEBACK] = "1"
+
+
+def main(arguments: Sequence[str] | None = None) -> None:
+    """Run the command and exit with the code of what happened; the entry point of ``hdpea``."""
+    sys.exit(run(arguments))
+
+
+def run(arguments: Sequence[str] | None = None) -> int:
+    """Run the command with the given arguments (default: those of the process); return its exit code."""
+    try:
+        with prompt_interrupts(), core_errors_translated():
+            hdpea.main(arguments, "hdpea", standalone_mode=False)
+    except click.exceptions.NoArgsIsHelpError as error:
+        click.echo(error.format_message(), err=True)
+        return UsageError.exit_code
+    except click.ClickException as error:
+        path = error.ctx.command_path if isinstance(error, click.UsageError) and error.ctx else "hdpea"
+        return _tell(UsageError(error.format_message(), f"`{path} --help` explains the options."), error)
+    except (KeyboardInterrupt, click.Abort) as error:
+        return _tell(Interrupted(), error)
+    except HdpeaError as error:
+        return _tell(error, error)
+    except Exception as error:  # noqa: BLE001 whatever it is, the user gets a sentence and a code
+        sentence = f"Internal error: {type(error).__name__}: {error}"
+        return _tell(HdpeaError(sentence, f"Please report it, with what {TRACEBACK}=1 shows."), error)
+    return 0
+
+
+def _tell(told: HdpeaError, cause: BaseException) -> int:
+    if os.environ.get(TRACEBACK):
+        traceback.print_exception(cause)
+    click.echo(f"Error: {told.message}", err=True)
+    if told.hint:
+        click.echo(f"Hint: {told.hint}", err=True)
+    return told.exit_code

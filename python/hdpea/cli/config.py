@@ -1,0 +1,60 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The config file: the settings of a run, by the names of their flags, in TOML."""
+
+from __future__ import annotations
+
+from difflib import get_close_matches
+from pathlib import Path
+from typing import Any
+
+import click
+
+from hdpea.cli.parameters import GroupedOption
+from hdpea.errors import UsageError
+from hdpea.settings import settings
+
+
+def read_config(path: Path) -> dict[str, Any]:
+    """Return the settings in a TOML file by name; ``fill-holes`` and ``fill_holes`` are the same.
+
+    Raises
+    ------
+    UsageError
+        If the file cannot be read, is no TOML, or has a key that is no setting.
+    """
+    import tomllib
+
+    try:
+        content = tomllib.loads(path.read_text())
+    except OSError as error:
+        raise UsageError(f"Cannot read {path}: {error.strerror}.", "Check the name and the permissions.") from error
+    except ValueError as error:
+        raise UsageError(f"{path} is not a TOML file: {error}.", "Lines look like: vertices = 5000") from error
+    names = [each.name for each in settings()]
+    given = {}
+    for key, value in content.items():
+        name = key.replace("-", "_")
+        if isinstance(value, dict):
+            raise UsageError(f"{path} has a table [{key}].", "Keys are the names of flags, without tables.")
+        if name not in names:
+            near = get_close_matches(name, names, 1, cutoff=0)
+            raise UsageError(f"{path} has an unknown key {key!r}.", f"The nearest known key is {near[0]!r}.")
+        # As on the command line, so that both are understood by the same rules.
+        given[name] = value if isinstance(value, bool) else str(value)
+    return given
+
+
+def _use_config(ctx: click.Context, _: click.Parameter, path: Path | None) -> None:
+    if path is not None:
+        ctx.default_map = read_config(path)
+
+
+config_option = click.option(
+    "--config",
+    cls=GroupedOption,
+    type=click.Path(path_type=Path),
+    is_eager=True,
+    expose_value=False,
+    callback=_use_config,
+    help="TOML file of settings by the names of their flags; flags win over it",
+)

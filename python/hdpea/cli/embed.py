@@ -1,0 +1,51 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""``hdpea embed``: the embedding alone, for those who want to build on it."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import click
+
+from hdpea.cli.config import config_option
+from hdpea.cli.parameters import GroupedCommand, chosen_options, quiet_option, setting_options
+
+EPILOG = """\b
+Examples:
+  hdpea embed scan.ply embedding.npz
+  hdpea embed scan.ply embedding.ply --curvature-radius 1%
+"""
+
+
+@click.command(cls=GroupedCommand, epilog=EPILOG, no_args_is_help=True, short_help="Embed a point cloud into R^8.")
+@click.argument("source", metavar="IN")
+@click.argument("output", metavar="OUT", type=click.Path(path_type=Path))
+@config_option
+@quiet_option
+@setting_options("normals", "embedding", "run")
+@click.pass_context
+def command(ctx: click.Context, /, *, source: str, output: Path, quiet: bool, **values: Any) -> None:
+    """Embed the point cloud IN into R^8, where distances are lengths under the curvature metric.
+
+    OUT is NPZ (arrays points and normals of shape (n, 3), coordinates of shape (n, 8)) or PLY
+    (embedding_0 to embedding_7 as properties of the points). IN is as for reconstruct.
+    """
+    options = chosen_options(ctx, values)
+    from hdpea.outputs import check_output
+    from hdpea.progress import shown, tell
+    from hdpea.reading import read_points
+    from hdpea.writing import POINT_FORMATS, write_points
+
+    check_output(output, POINT_FORMATS)
+    with shown(quiet) as progress:
+        tell(progress, "reading", 0.0)
+        cloud = read_points(source)
+        tell(progress, "start-up", 0.0)
+        from hdpea.embedding import embed_points
+
+        embedding = embed_points(cloud.points, cloud.normals, options, progress)
+        tell(progress, "writing", 0.0)
+        write_points(output, embedding.points, embedding.normals, embedding.coordinates)
+    if not quiet and cloud.notes:
+        click.echo("\n".join(cloud.notes), err=True)

@@ -1,0 +1,69 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""``hdpea info``: what is in a file, before anything is done with it."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import asdict
+from typing import TYPE_CHECKING
+
+import click
+
+from hdpea.cli.parameters import GroupedCommand
+
+if TYPE_CHECKING:
+    from hdpea.inspection import CloudFacts
+
+EPILOG = """\b
+Examples:
+  hdpea info scan.ply
+  hdpea info scan.ply --json
+"""
+
+
+@click.command(cls=GroupedCommand, epilog=EPILOG, no_args_is_help=True, short_help="Say what is in a point cloud.")
+@click.argument("source", metavar="IN")
+@click.option("--json", "as_json", is_flag=True, help="print the facts as JSON")
+def command(source: str, as_json: bool) -> None:
+    """Say what is in the point cloud IN, and what making a mesh of it would take.
+
+    Lengths are in the units of the file. IN is as for reconstruct.
+    """
+    from hdpea.inspection import inspect
+    from hdpea.reading import read_points
+
+    facts = inspect(read_points(source))
+    click.echo(json.dumps(asdict(facts), indent=2) if as_json else _describe(facts))
+
+
+def _describe(facts: CloudFacts) -> str:
+    extent = [high - low for low, high in zip(facts.low, facts.high, strict=True)]
+    rows = {
+        "format": facts.format,
+        "points": f"{facts.counts['points']:,}",
+        "attributes": ", ".join(facts.attributes) or "none",
+        "from": _triple(facts.low),
+        "to": _triple(facts.high),
+        "extent": " x ".join(f"{length:.6g}" for length in extent) + f", diagonal {facts.diagonal:.6g}",
+        "spacing": "unknown" if facts.spacing is None else f"{facts.spacing:.4g} (median to the nearest point)",
+        "normals": _normals(facts),
+        "a run needs": (
+            f"about {facts.estimated_seconds:.0f} s and {facts.estimated_peak_bytes / 1e9:.1f} GB "
+            f"for {facts.default_vertices:,} vertices"
+        ),
+    }
+    return "\n".join([*(f"{name:<12}{value}" for name, value in rows.items()), *facts.notes])
+
+
+def _triple(numbers: list[float]) -> str:
+    return " ".join(f"{number:.12g}" for number in numbers)
+
+
+def _normals(facts: CloudFacts) -> str:
+    usable, unusable = facts.counts["usable_normals"], facts.counts["unusable_normals"]
+    if not usable:
+        return "none usable, will be estimated" if unusable else "none, will be estimated"
+    agreement = (
+        "" if facts.normal_agreement is None else f", {facts.normal_agreement:.1%} of neighbours agree on the side"
+    )
+    return f"{usable:,} usable{agreement}"

@@ -1,0 +1,101 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Click options generated from the settings, shown in groups."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from typing import Any, TypeVar
+
+import click
+from click.core import ParameterSource
+
+from hdpea.lengths import Length
+from hdpea.options import Options
+from hdpea.settings import Setting, options_from, settings
+
+Decorated = TypeVar("Decorated", bound=Callable[..., Any])
+
+
+class LengthType(click.ParamType[Length]):
+    """A length such as ``0.02`` or ``1%``."""
+
+    name = "length"
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Length:
+        """Return the length; a usage error if it is none."""
+        try:
+            return value if isinstance(value, Length) else Length.parse(value)
+        except ValueError as error:
+            self.fail(f"{error}.", param, ctx)
+
+
+class GroupedOption(click.Option):
+    """An option listed under a heading of its own in the help."""
+
+    def __init__(self, *args: Any, group: str = "General", **kwargs: Any) -> None:
+        super().__init__(*args, **kwargs)
+        self.group = group
+
+
+class GroupedCommand(click.Command):
+    """A command whose help lists the options group by group, in the order in which they were added."""
+
+    def format_options(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
+        """Write one section per group."""
+        groups: dict[str, list[tuple[str, str]]] = {}
+        for param in self.get_params(ctx):
+            record = param.get_help_record(ctx)
+            if record is not None and isinstance(param, click.Option):
+                groups.setdefault(getattr(param, "group", "General"), []).append(record)
+        for group, records in groups.items():
+            with formatter.section(group):
+                formatter.write_dl(records)
+
+
+quiet_option = click.option("--quiet", cls=GroupedOption, is_flag=True, help="say nothing but errors")
+
+
+def setting_options(*stages: str) -> Callable[[Decorated], Decorated]:
+    """Add a flag for every setting of the given stages, in their order."""
+    chosen = [each for stage in stages for each in settings() if each.stage == stage]
+
+    def decorate(function: Decorated) -> Decorated:
+        # Decorators work from the last to the first.
+        for each in reversed(chosen):
+            function = _flag(each)(function)
+        return function
+
+    return decorate
+
+
+def _flag(setting: Setting) -> Callable[[Decorated], Decorated]:
+    flag = "--" + setting.name.replace("_", "-")
+    kinds: dict[type, Any] = {Length: LengthType()}
+    return click.option(
+        f"{flag}/--no-{flag[2:]}" if setting.kind is bool else flag,
+        cls=GroupedOption,
+        group=setting.stage.capitalize(),
+        type=click.Choice(setting.choices) if setting.choices else kinds.get(setting.kind, setting.kind),
+        default=setting.default,
+        show_default=setting.default is not None,
+        help=setting.help,
+    )
+
+
+def chosen_options(ctx: click.Context, values: Mapping[str, Any]) -> Options:
+    """Return the options for the values that click gave.
+
+    Raises
+    ------
+    UsageError
+        If a value, or the combination, is illegal.
+    """
+    chosen = dict(values)
+    # A flag wins over the config file, which for these two means that it rules out the other.
+    for flag, other in (("vertices", "faces"), ("faces", "vertices")):
+        if (ctx.get_parameter_source(flag), ctx.get_parameter_source(other)) == (
+            ParameterSource.COMMANDLINE,
+            ParameterSource.DEFAULT_MAP,
+        ):
+            del chosen[other]
+    return options_from(chosen)

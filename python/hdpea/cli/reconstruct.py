@@ -1,0 +1,107 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""``hdpea reconstruct``: the main job."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import click
+
+from hdpea.cli.config import config_option
+from hdpea.cli.parameters import GroupedCommand, GroupedOption, chosen_options, quiet_option, setting_options
+from hdpea.errors import QualityMissed, UsageError
+
+EPILOG = """\b
+Examples:
+  hdpea reconstruct scan.ply mesh.obj
+  hdpea reconstruct scan.ply mesh.ply --vertices 5000 --report report.json
+  hdpea reconstruct scan.xyz mesh.glb --faces 20000 --picture mesh.png
+  zcat scan.xyz.gz | hdpea reconstruct - mesh.stl --watertight --fill-holes 5%
+
+\b
+Exit codes: 0 ok, 1 internal error, 2 usage, 3 unreadable input,
+4 cannot reconstruct, 5 quality target missed, 130 interrupted.
+"""
+
+
+@click.command(cls=GroupedCommand, epilog=EPILOG, no_args_is_help=True, short_help="Make a mesh of a point cloud.")
+@click.argument("source", metavar="IN")
+@click.argument("output", metavar="OUT", type=click.Path(path_type=Path))
+@click.option(
+    "--report", cls=GroupedOption, type=click.Path(path_type=Path), help="write what was chosen and measured, as JSON"
+)
+@click.option(
+    "--picture", cls=GroupedOption, type=click.Path(path_type=Path), help="draw the mesh, as PNG; needs no screen"
+)
+@config_option
+@quiet_option
+@setting_options("meshing", "normals", "embedding", "particles", "refinement", "run")
+@click.pass_context
+def command(
+    ctx: click.Context,
+    /,
+    *,
+    source: str,
+    output: Path,
+    report: Path | None,
+    picture: Path | None,
+    quiet: bool,
+    **values: Any,
+) -> None:
+    """Make a compact anisotropic triangle mesh of the point cloud IN.
+
+    IN is PLY, text (XYZ, CSV, PTS, PWN), OBJ, OFF, NPY or NPZ; - reads standard input. Normals are
+    used if there are any. OUT is OBJ, PLY, STL, OFF or GLB, by its extension.
+
+    Lengths are in the units of the file, or in percent of the diagonal of the cloud's bounding box.
+    """
+    options = chosen_options(ctx, values)
+    _check_outputs(source, output, report, picture)
+    from hdpea.measuring import StageClock
+    from hdpea.progress import shown, tell
+    from hdpea.reading import read_points
+    from hdpea.writing import write_mesh
+
+    clock = StageClock()
+    with shown(quiet) as progress:
+        tell(progress, "reading", 0.0)
+        with clock.stage("reading"):
+            cloud = read_points(source)
+        # Torch takes seconds to load, so this comes after all that may be wrong with the request.
+        tell(progress, "start-up", 0.0)
+        with clock.stage("start-up"):
+            from hdpea.reconstruction import reconstruct
+        result = reconstruct(cloud.points, cloud.normals, options, progress)
+        result.report.begin_with(source, cloud, clock)
+        tell(progress, "writing", 0.0)
+        with result.report.clock.stage("writing"):
+            write_mesh(output, result.vertices, result.faces)
+        if report:
+            result.report.write(report)
+        if picture:
+            from hdpea.picture import draw_mesh
+
+            tell(progress, "picture", 0.0)
+            draw_mesh(picture, result.vertices, result.faces)
+    if not quiet:
+        from hdpea.summary import summarize
+
+        click.echo(summarize(result.report), err=True)
+    if result.report.missed:
+        raise QualityMissed(" ".join(result.report.missed), f"The mesh is in {output} all the same.")
+
+
+def _check_outputs(source: str, output: Path, report: Path | None, picture: Path | None) -> None:
+    from hdpea.outputs import check_output
+    from hdpea.picture import PICTURE_FORMATS, check_drawing
+    from hdpea.writing import MESH_FORMATS
+
+    check_output(output, MESH_FORMATS)
+    if output.resolve() == Path(source).resolve():
+        raise UsageError(f"{output} is both input and output.", "The scan would be lost; choose another name.")
+    if report:
+        check_output(report, [".json"])
+    if picture:
+        check_output(picture, PICTURE_FORMATS)
+        check_drawing()

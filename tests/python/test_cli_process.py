@@ -1,0 +1,113 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The command as a process of its own: start-up, standard input, Ctrl-C."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+import standins
+from files import WITH_NORMALS
+
+HERE = Path(__file__).parent
+HEAVY = ("torch", "numpy", "vtk", "trimesh", "pyvista", "rich", "hdpea._core")
+
+
+def test_help_imports_nothing_heavy() -> None:
+    check = (
+        f"import sys; from hdpea.cli import run; assert run(sys.argv[1:]) == 0; print(set({HEAVY}) & set(sys.modules))"
+    )
+    for arguments in (["--help"], ["reconstruct", "--help"], ["--version"]):
+        ran = subprocess.run([sys.executable, "-c", check, *arguments], capture_output=True, text=True, check=True)
+        assert ran.stdout.endswith("set()\n")
+
+
+def test_help_is_quick() -> None:
+    def seconds() -> float:
+        started = time.perf_counter()
+        subprocess.run([sys.executable, "-m", "hdpea", "--help"], capture_output=True, check=True)
+        return time.perf_counter() - started
+
+    assert min(seconds() for _ in range(3)) < 0.3
+
+
+def test_every_flag_is_in_the_help_with_its_stage() -> None:
+    from hdpea.settings import settings
+
+    ran = subprocess.run(
+        [sys.executable, "-m", "hdpea", "reconstruct", "-h"], capture_output=True, text=True, check=True
+    )
+    for each in settings():
+        assert "--" + each.name.replace("_", "-") in ran.stdout
+        assert each.stage.capitalize() + ":\n" in ran.stdout
+
+
+def stand_in(*arguments: str | Path) -> list[str]:
+    return [sys.executable, str(HERE / "standins.py"), *map(str, arguments)]
+
+
+def test_standard_input_is_read(tmp_path: Path) -> None:
+    ran = subprocess.run(
+        stand_in("reconstruct", "-", tmp_path / "mesh.obj", "--quiet"), input=WITH_NORMALS["text.ply"], check=True
+    )
+    assert ran.returncode == 0
+    assert (tmp_path / "mesh.obj").exists()
+
+
+def test_no_arguments_show_the_help_and_are_wrong_usage() -> None:
+    ran = subprocess.run([sys.executable, "-m", "hdpea"], capture_output=True, text=True, check=False)
+    assert ran.returncode == 2
+    assert "reconstruct" in ran.stderr
+
+
+def interrupted(script: list[str]) -> tuple[int, str, float]:
+    """Run a command, send it Ctrl-C once it says ``meshing``; return exit code, errors and seconds until the end."""
+    process = subprocess.Popen(script, stderr=subprocess.PIPE, env={**os.environ, "PYTHONUNBUFFERED": "1"})
+    assert process.stderr is not None
+    told = b""
+    while not told.endswith(b"meshing ..."):
+        told += process.stderr.read(1)
+    time.sleep(0.1)
+    started = time.perf_counter()
+    process.send_signal(signal.SIGINT)
+    told += process.communicate(timeout=10)[1]
+    return process.returncode, told.decode(), time.perf_counter() - started
+
+
+@pytest.fixture
+def sleeping(tmp_path: Path) -> list[str]:
+    (tmp_path / "scan.ply").write_bytes(WITH_NORMALS["binary.ply"])
+    return stand_in("reconstruct", tmp_path / "scan.ply", tmp_path / "mesh.obj", "--seed", str(standins.SLEEPING_SEED))
+
+
+def test_ctrl_c_ends_at_once_and_leaves_nothing(sleeping: list[str], tmp_path: Path) -> None:
+    exit_code, told, seconds = interrupted(sleeping)
+    assert exit_code == 130
+    assert "Error: Interrupted" in told
+    assert "Traceback" not in told
+    assert seconds < 1
+    assert [each.name for each in tmp_path.iterdir()] == ["scan.ply"]
+
+
+def test_ctrl_c_ends_compiled_code_that_never_looks_up(tmp_path: Path) -> None:
+    # Like a long call of the core: Python's own handling of Ctrl-C has no chance to run.
+    script = f"""
+import hashlib, sys
+from hdpea.interrupting import prompt_interrupts
+from hdpea.outputs import replacing
+from pathlib import Path
+with prompt_interrupts(), replacing(Path({str(tmp_path / "mesh.obj")!r})) as partial:
+    partial.write_text("half")
+    sys.stderr.write("meshing ...")
+    hashlib.pbkdf2_hmac("sha256", b"", b"", 10**9)
+"""
+    exit_code, told, seconds = interrupted([sys.executable, "-c", script])
+    assert exit_code == 130
+    assert "Error: Interrupted" in told
+    assert seconds < 3
+    assert list(tmp_path.iterdir()) == []
