@@ -28,8 +28,10 @@ Embedded embedded(const clouds::Cloud& cloud, double disk, double radius, const 
                   Coordinates(n, 8)};
   const Curvature curvature = estimate_curvature(cloud.points, cloud.normals, neighbors, radius);
   const Eigen::VectorXd weights = result.soup.counts.cast<double>() / 3;
-  result.coordinates << cloud.points,
+  // Solved before it is put in place: Eigen's comma aborts if an exception leaves it unfinished.
+  const Coordinates psi =
       solve_embedding(cloud.points, cloud.normals, curvature, result.soup.triangles, weights, options);
+  result.coordinates << cloud.points, psi;
   return result;
 }
 

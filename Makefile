@@ -1,0 +1,107 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Set-up, demo and tests. Each command installs what it misses, so it is also the first command of a
+# newcomer; a second run installs nothing. `make` alone lists the commands.
+
+PYTHON ?= python3
+VENV ?= .venv
+# The versions the tests were last run with. `make CONSTRAINTS=/dev/null` takes the newest instead.
+CONSTRAINTS ?= constraints.txt
+# Where `make demo` puts the scans and what it makes of them.
+DEMO := demo-output
+
+BIN := $(VENV)/bin
+SUDO := $(if $(filter 0,$(shell id -u)),,sudo)
+BUILD_PACKAGES := g++ cmake ninja-build python3-dev python3-venv \
+  libcgal-dev libeigen3-dev libnanoflann-dev libtbb-dev libgtest-dev
+# Pictures without a screen, and the scans of the demo.
+DEMO_PACKAGES := libosmesa6 libcgal-demo
+SCANS := /usr/share/doc/libcgal-dev/data.tar.gz
+
+PACKAGE_SOURCES := CMakeLists.txt pyproject.toml $(shell find src python -type f -not -name '*.pyc')
+CPP_SOURCES := $(shell find src tests/cpp -name '*.[ch]pp')
+
+.NOTPARALLEL:
+.PHONY: help setup demo test lint format core sanitize pytest bench-setup clean debian
+
+help:
+	@echo "make demo      reconstruct two real scans into $(DEMO)/"
+	@echo "make test      everything below"
+	@echo "make lint      ruff, mypy, clang-format"
+	@echo "make core      the C++ core: build with warnings as errors, run its tests"
+	@echo "make sanitize  the same under the address and undefined-behaviour sanitizers"
+	@echo "make pytest    the Python tests, on the installed package"
+	@echo "make setup     Debian packages, $(VENV)/, the package in it"
+	@echo "make format    let ruff and clang-format rewrite the sources"
+	@echo "make clean     remove build/, $(VENV)/ and $(DEMO)/"
+
+# ---- set-up ----------------------------------------------------------------------------------------
+
+# Minimal Debian images leave out /usr/share/doc, where the scans of the demo lie: hence the path-include.
+debian:
+	@if ! command -v dpkg-query >/dev/null; then \
+	  echo "== Not Debian: please see to it that there are (Debian's names): $(BUILD_PACKAGES)"; exit 0; fi; \
+	missing=$$(for package in $(BUILD_PACKAGES) $(DEMO_PACKAGES); do \
+	  dpkg-query -W -f='$${Status}' $$package 2>/dev/null | grep -q 'ok installed' || echo $$package; done); \
+	if [ -n "$$missing" ]; then \
+	  echo "== Installing Debian packages:" $$missing; \
+	  $(SUDO) apt-get update -qq && \
+	  $(SUDO) env DEBIAN_FRONTEND=noninteractive apt-get install -qq -y --no-install-recommends \
+	    -o Dpkg::Options::=--path-include=$(SCANS) $$missing >/dev/null; fi
+
+$(VENV)/.dependencies: pyproject.toml $(CONSTRAINTS) | debian
+	@echo "== Installing Python packages into $(VENV)/ (PyTorch is the large one)"
+	$(PYTHON) -m venv $(VENV)
+	$(BIN)/pip install -qq --upgrade 'pip>=25.1'
+	$(BIN)/pip install -qq -c $(CONSTRAINTS) --group dev
+	@touch $@
+
+# Not isolated, since an isolated build would compile nanobind anew each time.
+$(VENV)/.package: $(VENV)/.dependencies $(PACKAGE_SOURCES)
+	@echo "== Building and installing hdpea into $(VENV)/"
+	$(BIN)/pip install -qq -c $(CONSTRAINTS) --no-build-isolation '.[picture]'
+	@touch $@
+
+setup: debian $(VENV)/.package
+
+bench-setup: setup
+	$(BIN)/pip install -qq -c $(CONSTRAINTS) --group bench
+
+# ---- demo ------------------------------------------------------------------------------------------
+
+$(DEMO)/hippo1.ply: | debian
+	@mkdir -p $(DEMO)
+	tar -xzf $(SCANS) -C $(DEMO) --strip-components=2 data/points_3/hippo1.ply data/points_3/oni.pwn
+
+demo: setup $(DEMO)/hippo1.ply
+	$(BIN)/hdpea reconstruct $(DEMO)/hippo1.ply $(DEMO)/hippo1.obj \
+	  --report $(DEMO)/hippo1.json --picture $(DEMO)/hippo1.png
+	$(BIN)/hdpea reconstruct $(DEMO)/oni.pwn $(DEMO)/oni.obj \
+	  --report $(DEMO)/oni.json --picture $(DEMO)/oni.png
+	@echo "== Look at $(DEMO)/hippo1.png and $(DEMO)/oni.png; the meshes and reports lie beside them."
+
+# ---- tests -----------------------------------------------------------------------------------------
+
+test: lint core sanitize pytest
+
+lint: setup
+	$(BIN)/ruff check
+	$(BIN)/ruff format --check
+	$(BIN)/mypy
+	$(BIN)/clang-format --dry-run -Werror $(CPP_SOURCES)
+
+format: $(VENV)/.dependencies
+	$(BIN)/ruff check --fix
+	$(BIN)/ruff format
+	$(BIN)/clang-format -i $(CPP_SOURCES)
+
+core: debian
+	cmake --workflow --preset default
+
+sanitize: debian
+	cmake --workflow --preset sanitize
+
+pytest: setup
+	$(BIN)/pytest
+
+clean:
+	rm -rf build $(VENV) $(DEMO)

@@ -1,0 +1,40 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""From a scan in a file to a mesh, its report and its picture.
+
+    python examples/reconstruct_a_scan.py scan.ply mesh.obj
+
+The same as:  hdpea reconstruct scan.ply mesh.obj --report mesh.json --picture mesh.png
+"""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+
+from hdpea import reconstruct
+from hdpea.options import MeshingOptions, Options
+from hdpea.picture import draw_mesh
+from hdpea.reading import read_points
+from hdpea.writing import write_mesh
+
+
+def main(scan: Path, out: Path) -> None:
+    """Reconstruct `scan` to `out`, with a report and a picture beside it."""
+    cloud = read_points(scan)
+    for note in cloud.notes:
+        print(note)
+
+    # One vertex for every ten points; every other option has a default taken from the cloud.
+    options = Options(meshing=MeshingOptions(vertices=len(cloud.points) // 10))
+    mesh = reconstruct(cloud.points, cloud.normals, options=options)
+
+    write_mesh(out, mesh.vertices, mesh.faces)
+    mesh.report.write(out.with_suffix(".json"))
+    draw_mesh(out.with_suffix(".png"), mesh.vertices, mesh.faces)
+    print(f"{len(cloud.points)} points -> {len(mesh.vertices)} vertices, {len(mesh.faces)} faces")
+    if mesh.report.distances:
+        print(f"rms distance of the points: {mesh.report.distances.rms:.3g}, in the scan's units")
+
+
+if __name__ == "__main__":
+    main(Path(sys.argv[1]), Path(sys.argv[2]))
