@@ -16,10 +16,10 @@ from hdpea.options import EmbeddingOptions
 from hdpea.report import Choice
 from hdpea.surface import Surface
 
-BENDING_PER_SPACING = 0.7
+BENDING_PER_SPACING = 0.6
 """Bending length in spacings of the vertices to come: finer, and the tangent disks of neighbours disagree."""
 
-CURVATURE_PER_SPACING = 0.9
+CURVATURE_PER_SPACING = 1.0
 """Curvature radius in the same spacings: a little more than the embedding can follow."""
 
 
