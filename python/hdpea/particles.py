@@ -89,6 +89,7 @@ def spread_particles(
     bases: NDArray[np.float64],
     neighbors: NDArray[np.int64],
     count: int,
+    *,
     options: ParticleOptions | None = None,
     progress: Callable[[float], bool] | None = None,
 ) -> Particles:
