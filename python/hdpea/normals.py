@@ -65,7 +65,7 @@ def oriented_surface(
         If the file's normals are insisted on and some are unusable.
     """
     options = options or NormalOptions()
-    usable = np.zeros(len(points_in_world), dtype=bool) if normals is None else normals.any(axis=1)
+    usable: NDArray[np.bool_] = np.zeros(len(points_in_world), dtype=bool) if normals is None else normals.any(axis=1)
     if options.normals == "file" and not usable.all():
         raise UnreadableInput(
             f"{int((~usable).sum())} points have no usable normal.", "Use --normals auto to estimate those."
