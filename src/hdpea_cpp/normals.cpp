@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hdpea_cpp/normals.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+#include <tuple>
+#include <vector>
+
+#include "hdpea_cpp/errors.hpp"
+#include "hdpea_cpp/parallel.hpp"
+
+namespace hdpea {
+namespace {
+
+/// The direction of least variance of the neighbours, each weighted by weigh(offset).
+template <class Weigh>
+Eigen::Vector3d least_direction(const PointsRef& points, const NeighborsRef& neighbors, Index i, Weigh weigh) {
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  double total = 1;  // the point itself
+  for (Index j : neighbors.row(i)) {
+    if (j < 0) continue;
+    const Eigen::Vector3d offset = (points.row(j) - points.row(i)).transpose();
+    const double weight = weigh(offset);
+    covariance += weight * offset * offset.transpose();
+    sum += weight * offset;
+    total += weight;
+  }
+  covariance -= sum * sum.transpose() / total;
+  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(covariance).eigenvectors().col(0);
+}
+
+/// n_i . n_j after n_i is carried along the arc from p_i to p_j.
+double carried_cosine(const PointsRef& points, const PointsRef& normals, Index i, Index j) {
+  const Eigen::RowVector3d edge = (points.row(j) - points.row(i)).stableNormalized();
+  const Eigen::RowVector3d normal = normals.row(i);
+  return (normal - 2 * normal.dot(edge) * edge).dot(normals.row(j));
+}
+
+/// Sets of points whose relative signs are known.
+class SignForest {
+ public:
+  explicit SignForest(Index n) : parent_(static_cast<std::size_t>(n)), flipped_(static_cast<std::size_t>(n), 0) {
+    std::iota(parent_.begin(), parent_.end(), Index{0});
+  }
+
+  /// The set's representative, and whether the point's sign is opposite to its.
+  std::pair<Index, bool> find(Index i) {
+    if (parent_[i] == i) return {i, false};
+    std::vector<Index> path;
+    for (; parent_[i] != i; i = parent_[i]) path.push_back(i);
+    bool flipped = false;  // from the root back to the start, each now hangs on the root
+    for (auto step = path.rbegin(); step != path.rend(); ++step) {
+      flipped = flipped != (flipped_[*step] != 0);
+      flipped_[*step] = flipped;
+      parent_[*step] = i;
+    }
+    return {i, flipped};
+  }
+
+  void join(Index i, Index j, bool opposite) {
+    const auto [root_i, flipped_i] = find(i);
+    const auto [root_j, flipped_j] = find(j);
+    if (root_i == root_j) return;
+    parent_[root_j] = root_i;
+    flipped_[root_j] = (flipped_i != flipped_j) != opposite;
+  }
+
+ private:
+  std::vector<Index> parent_;
+  std::vector<char> flipped_;
+};
+
+struct Edge {
+  double cost;
+  Index i, j;
+  bool operator<(const Edge& other) const { return std::tie(cost, i, j) < std::tie(other.cost, other.i, other.j); }
+};
+
+std::vector<Edge> sorted_edges(const PointsRef& points, const PointsRef& normals, const NeighborsRef& neighbors) {
+  std::vector<Edge> edges;
+  for (Index i = 0; i < neighbors.rows(); ++i) {
+    for (Index j : neighbors.row(i)) {
+      if (j >= 0)
+        edges.push_back({1 - std::abs(carried_cosine(points, normals, i, j)), std::min(i, j), std::max(i, j)});
+    }
+  }
+  std::sort(edges.begin(), edges.end());
+  return edges;
+}
+
+/// Whether each piece (by its representative) faces inwards at its extreme points along 13 axes.
+std::vector<char> face_inwards(const PointsRef& points, const Points& normals, const std::vector<Index>& piece) {
+  std::vector<double> outward(piece.size(), 0);
+  std::vector<double> highest(piece.size()), at_highest(piece.size());
+  for (int code = 0; code < 27; ++code) {
+    if (code == 13) continue;  // no direction
+    const Eigen::RowVector3d axis = Eigen::RowVector3d(code % 3 - 1, code / 3 % 3 - 1, code / 9 - 1).normalized();
+    std::fill(highest.begin(), highest.end(), -std::numeric_limits<double>::infinity());
+    for (Index i = 0; i < points.rows(); ++i) {
+      const double height = points.row(i).dot(axis);
+      if (height <= highest[piece[i]]) continue;
+      highest[piece[i]] = height;
+      at_highest[piece[i]] = normals.row(i).dot(axis);
+    }
+    for (std::size_t root = 0; root < piece.size(); ++root) {
+      if (piece[root] == static_cast<Index>(root)) outward[root] += at_highest[root];
+    }
+  }
+  std::vector<char> inwards(piece.size());
+  for (std::size_t root = 0; root < piece.size(); ++root) inwards[root] = outward[root] < 0;
+  return inwards;
+}
+
+}  // namespace
+
+Points estimate_normals(const PointsRef& points, const NeighborsRef& neighbors) {
+  require(points.rows() == neighbors.rows(), "points and neighbors must have one row per point");
+  Points normals(points.rows(), 3);
+  parallel_for(points.rows(), [&](Index i) {
+    const Eigen::Vector3d first = least_direction(points, neighbors, i, [](const Eigen::Vector3d&) { return 1.0; });
+    const Eigen::Vector3d second = least_direction(points, neighbors, i, [&](const Eigen::Vector3d& offset) {
+      const double slope = offset.dot(first) / std::max(offset.norm(), 1e-300);
+      return std::exp(-slope * slope / 0.04);
+    });
+    normals.row(i) = second.transpose();
+  });
+  return normals;
+}
+
+Points orient_normals(const PointsRef& points, const PointsRef& normals, const NeighborsRef& neighbors) {
+  const Index n = points.rows();
+  require(normals.rows() == n && neighbors.rows() == n, "points, normals and neighbors must have one row per point");
+  Points oriented = normals;
+  for (Index i = 0; i < n; ++i) {
+    // One sign for n and -n, whatever was given.
+    Index largest;
+    oriented.row(i).cwiseAbs().maxCoeff(&largest);
+    if (oriented(i, largest) < 0) oriented.row(i) *= -1;
+  }
+  SignForest forest(n);
+  for (const Edge& edge : sorted_edges(points, oriented, neighbors)) {
+    forest.join(edge.i, edge.j, carried_cosine(points, oriented, edge.i, edge.j) < 0);
+  }
+  std::vector<Index> piece(static_cast<std::size_t>(n));
+  for (Index i = 0; i < n; ++i) {
+    const auto [root, flipped] = forest.find(i);
+    piece[i] = root;
+    if (flipped) oriented.row(i) *= -1;
+  }
+  const std::vector<char> inwards = face_inwards(points, oriented, piece);
+  for (Index i = 0; i < n; ++i) {
+    if (inwards[piece[i]]) oriented.row(i) *= -1;
+  }
+  return oriented;
+}
+
+double orientation_consistency(const PointsRef& points, const PointsRef& normals, const NeighborsRef& neighbors) {
+  require(normals.rows() == points.rows() && neighbors.rows() == points.rows(),
+          "points, normals and neighbors must have one row per point");
+  Index agree = 0, count = 0;
+  for (Index i = 0; i < points.rows(); ++i) {
+    for (Index j : neighbors.row(i)) {
+      if (j < 0) continue;
+      const double cosine = carried_cosine(points, normals, i, j);
+      count += std::abs(cosine) > 0.8;
+      agree += cosine > 0.8;
+    }
+  }
+  return count == 0 ? 1 : static_cast<double>(agree) / static_cast<double>(count);
+}
+
+}  // namespace hdpea
