@@ -65,7 +65,8 @@ def oriented_surface(
         If the file's normals are insisted on and some are unusable.
     """
     options = options or NormalOptions()
-    usable = np.zeros(len(points_in_world), dtype=bool) if normals is None else normals.any(axis=1)
+    given = np.zeros_like(points_in_world) if normals is None else normals
+    usable: NDArray[np.bool_] = np.asarray(given.any(axis=1))
     if options.normals == "file" and not usable.all():
         raise UnreadableInput(
             f"{int((~usable).sum())} points have no usable normal.", "Use --normals auto to estimate those."
@@ -79,7 +80,7 @@ def oriented_surface(
     with core_errors_translated():
         neighbors = _core.nearest_neighbors(points, NEIGHBORS)
         nearest = np.ascontiguousarray(neighbors[:, : options.normal_neighbors])
-        directions = np.zeros_like(points) if normals is None else normals.copy()
+        directions = given.copy()
         if not usable.all():
             directions[~usable] = _core.estimate_normals(points, nearest)[~usable]
         tell(progress, "normals", 0.5)

@@ -26,8 +26,11 @@ INTERACTIONS = 16
 REFRESH = 5
 """Steps after which they are searched for anew."""
 
-STEP, DECAY, DECAY_EVERY = 2.0, 0.6, 20
-"""First step in units of sigma^2 times the force, and its decay (paper, section E)."""
+STEP, DECAY, DECAY_EVERY = 1.0, 0.6, 20
+"""First step in units of sigma^2 times the force, and its decay (paper, section E).
+
+A first step of 2 overshoots: particles jump about, and a difference of 1e-12 in the embedding grew 20,000 times
+in 100 steps; with 1 it doubles, and the spacing is as even."""
 
 STRIDES = 12
 """Neighbours among which a particle's nearest cloud point is followed from step to step."""

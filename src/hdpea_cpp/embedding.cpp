@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "hdpea_cpp/cholesky.hpp"
+#include "hdpea_cpp/disjoint_sets.hpp"
 #include "hdpea_cpp/errors.hpp"
 #include "hdpea_cpp/parallel.hpp"
 
@@ -163,6 +164,45 @@ Psi initial_psi(const PointsRef& normals) {
   return psi;
 }
 
+/// Holds the mean psi of every connected piece where it was at first.
+///
+/// The metric does not see a piece's translation, and the anchor holds it by a thread: without this, rounding
+/// errors a millionfold would move it, and a shifted cloud would get another mesh.
+class PinnedMeans {
+ public:
+  PinnedMeans(const FacesRef& triangles, const Eigen::VectorXd& areas, const Psi& psi)
+      : piece_(static_cast<std::size_t>(psi.rows())), areas_(areas) {
+    DisjointSets sets(psi.rows());
+    for (Index t = 0; t < triangles.rows(); ++t) {
+      sets.join(triangles(t, 0), triangles(t, 1));
+      sets.join(triangles(t, 0), triangles(t, 2));
+    }
+    for (Index v = 0; v < psi.rows(); ++v) piece_[v] = sets.find(v);
+    pinned_ = means(psi);
+  }
+
+  void restore(Psi& psi) const {
+    const Psi shifts = pinned_ - means(psi);
+    for (Index v = 0; v < psi.rows(); ++v) psi.row(v) += shifts.row(piece_[v]);
+  }
+
+ private:
+  /// Means by area, in the row of each piece's first vertex.
+  Psi means(const Psi& psi) const {
+    Psi sums = Psi::Zero(psi.rows(), 5);
+    Eigen::VectorXd area = Eigen::VectorXd::Zero(psi.rows());
+    for (Index v = 0; v < psi.rows(); ++v) {
+      sums.row(piece_[v]) += areas_(v) * psi.row(v);
+      area(piece_[v]) += areas_(v);
+    }
+    return area.cwiseMax(1e-300).cwiseInverse().asDiagonal() * sums;
+  }
+
+  std::vector<Index> piece_;
+  const Eigen::VectorXd& areas_;
+  Psi pinned_;
+};
+
 SparseMatrix diagonal(const Eigen::VectorXd& values) { return SparseMatrix(values.asDiagonal()); }
 
 }  // namespace
@@ -183,8 +223,7 @@ Coordinates solve_embedding(const PointsRef& points, const PointsRef& normals, c
   parallel_for(n, [&](Index i) { excess[i] = metric_excess(normals, curvature, i, options); });
   Solver solver(points, triangles, weights, excess);
 
-  // Points in no triangle get a little area of their own; a little of A makes L definite, and keeps the
-  // mean of every connected piece where it was.
+  // Points in no triangle get a little area of their own; a little of A makes L definite.
   const double mean_area = std::max(solver.areas().mean(), 1e-300);
   const Eigen::VectorXd areas = solver.areas().cwiseMax(1e-3 * mean_area);
   const double anchor = 1e-6 / (points.colwise().maxCoeff() - points.colwise().minCoeff()).squaredNorm();
@@ -195,12 +234,14 @@ Coordinates solve_embedding(const PointsRef& points, const PointsRef& normals, c
 
   Psi psi = initial_psi(normals);
   Psi right(n, 5);
+  const PinnedMeans pinned_means(triangles, areas, psi);
   for (Index iteration = 0; iteration < options.iterations; ++iteration) {
     report(progress, static_cast<double>(iteration) / static_cast<double>(options.iterations));
     solver.divergence_of_frames(psi, right);
     bending.solve_in_place(right);
     psi = areas.asDiagonal() * (right + anchor * psi);
     poisson.solve_in_place(psi);
+    pinned_means.restore(psi);
   }
   report(progress, 1);
   return psi;

@@ -76,7 +76,8 @@ def test_other_processes_give_the_same_bytes(tmp_path: Any) -> None:
 def test_units_and_place_give_the_same_mesh(scale: float, shift: float) -> None:
     points, normals = torus()
     here, there = mesh_of(points, normals), mesh_of(scale * points + shift, normals)
-    assert np.array_equal(here.faces, there.faces)
+    # Faces that were equally good may have come in another order.
+    assert {*map(tuple, here.faces.tolist())} == {*map(tuple, there.faces.tolist())}
     # Doubles near the shift have steps of 1e-10, which the mesh may show, enlarged a little by the optimisation.
     spacing = np.sqrt(4 * np.pi**2 * 0.4 / len(points))
     assert np.abs((there.vertices - shift) / scale - here.vertices).max() < 1e-6 * spacing
