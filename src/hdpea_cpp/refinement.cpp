@@ -31,17 +31,53 @@ struct NormalEquations {
   Eigen::VectorXd right;
 };
 
+/// Tells whether a point belongs to the sheet that it was projected to.
+class Agreement {
+ public:
+  Agreement(const Points& vertices, const FacesRef& faces, double min_cosine)
+      : faces_(faces),
+        areas_(area_vectors(vertices, faces)),
+        faces_around_(static_cast<std::size_t>(vertices.rows())),
+        min_cosine_(min_cosine) {
+    for (Index f = 0; f < faces.rows(); ++f) {
+      for (Index v : faces.row(f)) faces_around_[v].push_back(f);
+    }
+  }
+
+  /// Asks every face that the foot lies on: those at an edge or a corner are equally close, and which of them
+  /// was found is a matter of rounding.
+  bool holds(const Eigen::RowVector3d& normal, Index face, const Eigen::RowVector3d& barycentric) const {
+    constexpr double nothing = 1e-9;
+    Index corner;
+    barycentric.maxCoeff(&corner);
+    for (Index f : faces_around_[faces_(face, corner)]) {
+      bool has_foot = true;
+      for (int i = 0; i < 3; ++i) {
+        has_foot = has_foot && (barycentric(i) < nothing || (faces_.row(f).array() == faces_(face, i)).any());
+      }
+      if (has_foot && normal.dot(areas_.row(f)) >= min_cosine_ * areas_.row(f).norm()) return true;
+    }
+    return false;
+  }
+
+ private:
+  const FacesRef& faces_;
+  Points areas_;
+  std::vector<std::vector<Index>> faces_around_;
+  double min_cosine_;
+};
+
 NormalEquations assemble(const Points& vertices, const FacesRef& faces, const PointsRef& points,
                          const PointsRef& normals, const RefinementOptions& options) {
   using Block = Eigen::Matrix<double, 9, 9>;
   const SurfacePoints feet = closest_surface_points(vertices, faces, points);
-  const Points area_of = area_vectors(vertices, faces);
+  const Agreement agreement(vertices, faces, options.min_cosine);
   std::vector<Block, Eigen::aligned_allocator<Block>> blocks(static_cast<std::size_t>(faces.rows()), Block::Zero());
   const double pull = options.pull * static_cast<double>(points.rows()) / static_cast<double>(vertices.rows());
   NormalEquations system{SparseMatrix(vertices.size(), vertices.size()), pull * vertices.reshaped<Eigen::RowMajor>()};
   for (Index p = 0; p < points.rows(); ++p) {
     const Index f = feet.face(p);
-    if (normals.row(p).dot(area_of.row(f)) < options.min_cosine * area_of.row(f).norm()) continue;
+    if (!agreement.holds(normals.row(p), f, feet.barycentric.row(p))) continue;
     Eigen::Matrix<double, 9, 1> row;
     for (int i = 0; i < 3; ++i) row.segment<3>(3 * i) = feet.barycentric(p, i) * normals.row(p).transpose();
     blocks[f].noalias() += row * row.transpose();

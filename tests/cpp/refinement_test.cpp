@@ -49,6 +49,21 @@ TEST(Refinement, NeverFlipsAFace) {
   }
 }
 
+TEST(Refinement, DoesNotDependOnTheOrderOfTheFaces) {
+  // A right-angled ridge: the feet of points above it lie on the edge that two faces share, and only one of
+  // them agrees with the point's normal.
+  const auto roof = shapes::make({{0, 0, 0}, {0, 1, 0}, {1, 0.5, -1}, {-1, 0.5, -1}}, {{0, 2, 1}, {0, 1, 3}});
+  Points points(40, 3), normals(40, 3);
+  for (Index i = 0; i < 40; ++i) {
+    points.row(i) << 0, (double(i) + 0.5) / 40, 0.05;
+    normals.row(i) = Eigen::RowVector3d(i % 2 == 0 ? 1 : -1, 0, 0.8).normalized();
+  }
+  const Faces reversed = roof.faces.colwise().reverse();
+  const Points refined = refine_vertices(roof.vertices, roof.faces, points, normals, {});
+  EXPECT_LT((refined - refine_vertices(roof.vertices, reversed, points, normals, {})).cwiseAbs().maxCoeff(), 1e-12);
+  EXPECT_GT(refined(0, 2), 0.03);
+}
+
 TEST(Refinement, NoRoundsChangeNothing) {
   const auto mesh = shapes::tetrahedron();
   const auto sphere = clouds::sphere(100);
