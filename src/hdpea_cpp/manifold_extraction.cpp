@@ -188,6 +188,8 @@ ExtractedMesh Extractor::finish() {
     if (flipped != (outward[representative] < 0)) std::swap(triangle[1], triangle[2]);
     kept.push_back(triangle);
   }
+  // They entered in the order of their radii, which rounding (a cloud in other units) may change.
+  std::sort(kept.begin(), kept.end());
   ExtractedMesh extracted;
   counts_.split_vertices = split_pinched_vertices(kept, coordinates_.rows(), extracted.faces, extracted.sources);
   extracted.counts = counts_;

@@ -30,7 +30,7 @@ struct ExtractionCounts {
 };
 
 struct ExtractedMesh {
-  Faces faces;                                   ///< (f, 3), oriented as the normals
+  Faces faces;                                   ///< (f, 3), oriented as the normals, in lexicographic order
   Eigen::Vector<Index, Eigen::Dynamic> sources;  ///< (v) the seed of each vertex
   ExtractionCounts counts;
 };
