@@ -18,6 +18,9 @@ from hdpea.surface import NEIGHBORS, Surface, require_surface
 TRUSTED_CONSISTENCY = 0.9
 """Share of neighbours in agreement from which the file's orientation is taken as it is; random signs have 0.5."""
 
+ORIENTATION_NEIGHBORS = 16
+"""Nearest points to which a point hands on its orientation, and fewest that an estimated normal is fitted to."""
+
 
 @dataclass(frozen=True)
 class OrientedSurface:
@@ -43,6 +46,7 @@ def oriented_surface(
     points_in_world: NDArray[np.float64],
     normals: NDArray[np.float64] | None = None,
     options: NormalOptions | None = None,
+    points_per_vertex: float = 8.0,
     progress: ProgressCallback | None = None,
 ) -> OrientedSurface:
     """Move a cloud to its unit frame and give it consistently oriented normals.
@@ -56,6 +60,9 @@ def oriented_surface(
         (n, 3) float64, finite and distinct.
     normals
         (n, 3) float64 of length 1, or 0 where unusable.
+    points_per_vertex
+        Points for each vertex that the mesh will have: with more, normals are fitted to more neighbours, so
+        that noise averages out in a redundant cloud.
 
     Raises
     ------
@@ -79,10 +86,12 @@ def oriented_surface(
     tell(progress, "normals", 0)
     with core_errors_translated():
         neighbors = _core.nearest_neighbors(points, NEIGHBORS)
-        nearest = np.ascontiguousarray(neighbors[:, : options.normal_neighbors])
+        nearest = np.ascontiguousarray(neighbors[:, :ORIENTATION_NEIGHBORS])
         directions = given.copy()
         if not usable.all():
-            directions[~usable] = _core.estimate_normals(points, nearest)[~usable]
+            count = options.normal_neighbors or max(ORIENTATION_NEIGHBORS, round(2 * points_per_vertex))
+            fitted = np.ascontiguousarray(neighbors[:, :count])
+            directions[~usable] = _core.estimate_normals(points, fitted)[~usable]
         tell(progress, "normals", 0.5)
         consistency = _core.orientation_consistency(points, directions, nearest) if usable.any() else None
         trusted = usable.all() and consistency is not None and consistency >= TRUSTED_CONSISTENCY

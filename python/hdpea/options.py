@@ -48,7 +48,11 @@ class NormalOptions(_Checked):
         "auto: the file's where they are usable, else estimated; file: the file's or fail; estimate: always estimate",
         choices=("auto", "file", "estimate"),
     )
-    normal_neighbors: int = option(16, "nearest points whose plane gives an estimated normal", minimum=3)
+    normal_neighbors: int | None = option(
+        None,
+        "nearest points whose plane gives an estimated normal; default: two for each point per vertex, 16 to 40",
+        minimum=3,
+    )
 
 
 @dataclass(frozen=True)

@@ -94,7 +94,8 @@ def reconstruct(
     with limited_threads(options.threads), core_errors_translated():
         cloud = cleaned(PointCloud(np.asarray(points, dtype=np.float64), normals))
         with report.clock.stage("normals"):
-            oriented = oriented_surface(cloud.points, cloud.normals, options.normals, progress)
+            points_per_vertex = len(cloud.points) / options.meshing.vertices_of(len(cloud.points))
+            oriented = oriented_surface(cloud.points, cloud.normals, options.normals, points_per_vertex, progress)
         _tell_of_cloud(report, cloud, oriented)
         mesh = _mesh_of(oriented.surface, report, progress)
         with report.clock.stage("measuring"):
@@ -127,7 +128,7 @@ def _mesh_of(surface: Surface, report: Report, progress: ProgressCallback | None
         )
     with report.clock.stage("embedding"):
         embedded = embed_surface(surface, vertices, options.embedding, progress)
-        bases = tangent_bases(embedded.coordinates, surface.neighbors)
+        bases = tangent_bases(embedded.coordinates, surface.neighbors, points / vertices)
     count = vertices
     for _ in range(ATTEMPTS):
         with report.clock.stage("particles"):

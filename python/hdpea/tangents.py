@@ -10,10 +10,15 @@ from hdpea import _core
 from hdpea.errors import core_errors_translated
 
 TANGENT_NEIGHBORS = 12
-"""Neighbours whose plane is the tangent plane (paper, section 3.2)."""
+"""Neighbours whose plane is the tangent plane (paper, section 3.2), where there are up to 8 points per vertex."""
+
+PER_VERTEX = 1.5
+"""Neighbours in points per vertex, where there are more: a redundant cloud lets noise be averaged out."""
 
 
-def tangent_bases(coordinates: NDArray[np.float64], neighbors: NDArray[np.int64]) -> NDArray[np.float64]:
+def tangent_bases(
+    coordinates: NDArray[np.float64], neighbors: NDArray[np.int64], points_per_vertex: float = 8.0
+) -> NDArray[np.float64]:
     """Return an orthonormal basis (n, 2, d) of the tangent plane at each embedded point.
 
     PCA of the embedded neighbours, the top two eigenvectors (paper, section 3.2).
@@ -23,9 +28,12 @@ def tangent_bases(coordinates: NDArray[np.float64], neighbors: NDArray[np.int64]
     coordinates
         (n, d) float64.
     neighbors
-        (n, k >= 12) int64: neighbours *in R^3*, of the same sheet, padded with -1. Neighbours in R^d
+        (n, k) int64: neighbours *in R^3*, of the same sheet, padded with -1. Neighbours in R^d
         would jump between folds (the paper's ablation).
+    points_per_vertex
+        Points for each vertex that the mesh will have: with more, planes are fitted to more neighbours.
     """
-    nearest = np.ascontiguousarray(neighbors[:, :TANGENT_NEIGHBORS])
+    count = max(TANGENT_NEIGHBORS, round(PER_VERTEX * points_per_vertex))
+    nearest = np.ascontiguousarray(neighbors[:, :count])
     with core_errors_translated():
         return _core.tangent_bases(coordinates, nearest).reshape(len(coordinates), 2, -1)

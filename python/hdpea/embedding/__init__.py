@@ -80,6 +80,8 @@ def embed_points(
     """
     options = options or Options()
     cloud = cleaned(PointCloud(points, normals))
-    surface = oriented_surface(cloud.points, cloud.normals, options.normals, progress).surface
-    embedded = embed_surface(surface, options.meshing.vertices_of(len(cloud.points)), options.embedding, progress)
+    vertices = options.meshing.vertices_of(len(cloud.points))
+    per_vertex = len(cloud.points) / vertices
+    surface = oriented_surface(cloud.points, cloud.normals, options.normals, per_vertex, progress).surface
+    embedded = embed_surface(surface, vertices, options.embedding, progress)
     return Embedding(cloud.points, surface.normals, embedded.coordinates, surface.frame)
