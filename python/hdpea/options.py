@@ -90,7 +90,7 @@ class MeshingOptions(_Checked):
         None, "fill holes up to this size across, as 0.02 or 1%; default: 4 times the vertex spacing; 0: none"
     )
     watertight: bool = option(False, "close every hole, whatever its size")
-    min_component: int = option(16, "drop connected pieces of fewer faces than this", minimum=0)
+    min_component: int = option(16, "drop connected pieces of fewer faces than this; the largest stays", minimum=0)
 
     def __post_init__(self) -> None:
         super().__post_init__()

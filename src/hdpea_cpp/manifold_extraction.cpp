@@ -176,10 +176,13 @@ ExtractedMesh Extractor::finish() {
     outward[representative] += flipped ? -agreement : agreement;
     ++size[representative];
   }
+  // A mesh of few faces is no reason to drop all of it: the largest piece stays.
+  const Index largest = face_count == 0 ? 0 : *std::max_element(size.begin(), size.end());
+  const Index least = std::min(options_.min_component_faces, largest);
   std::vector<Triangle> kept;
   for (Index f = 0; f < face_count; ++f) {
     const auto [representative, flipped] = mesh_.piece_of(f);
-    if (size[representative] < options_.min_component_faces) {
+    if (size[representative] < least) {
       ++counts_.dropped_faces;
       counts_.dropped_components += representative == f;
       continue;
