@@ -166,7 +166,7 @@ Psi initial_psi(const PointsRef& normals) {
 
 /// Holds the mean psi of every connected piece where it was at first.
 ///
-/// The metric does not see a piece's translation, and the anchor holds it by a thread: without this, rounding
+/// The metric does not see a piece's translation, and the anchor holds it loosely: without this, rounding
 /// errors a millionfold would move it, and a shifted cloud would get another mesh.
 class PinnedMeans {
  public:
@@ -223,10 +223,12 @@ Coordinates solve_embedding(const PointsRef& points, const PointsRef& normals, c
   parallel_for(n, [&](Index i) { excess[i] = metric_excess(normals, curvature, i, options); });
   Solver solver(points, triangles, weights, excess);
 
-  // Points in no triangle get a little area of their own; a little of A makes L definite.
+  // Points in no triangle get a little area of their own; a little of A makes L definite, however much the
+  // slivers between nearly equal points weigh. It slows psi's convergence by its ratio to L's eigenvalues, which
+  // are tens, and does not move what psi converges to.
   const double mean_area = std::max(solver.areas().mean(), 1e-300);
   const Eigen::VectorXd areas = solver.areas().cwiseMax(1e-3 * mean_area);
-  const double anchor = 1e-6 / (points.colwise().maxCoeff() - points.colwise().minCoeff()).squaredNorm();
+  const double anchor = 1e-3 / (points.colwise().maxCoeff() - points.colwise().minCoeff()).squaredNorm();
   const SparseMatrix laplacian = solver.laplacian();
   const double squared_length = options.bending_length * options.bending_length;
   const Cholesky bending(squared_length * laplacian + diagonal(areas));
