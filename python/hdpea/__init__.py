@@ -18,6 +18,8 @@ if TYPE_CHECKING:
     from hdpea.reconstruction import reconstruct as reconstruct
     from hdpea.writing import write_mesh as write_mesh
 
+__all__ = ["Embedding", "Options", "Reconstruction", "embed_points", "read_points", "reconstruct", "write_mesh"]
+
 _HOMES = {
     "Embedding": "hdpea.embedding",
     "Options": "hdpea.options",
@@ -27,8 +29,6 @@ _HOMES = {
     "reconstruct": "hdpea.reconstruction",
     "write_mesh": "hdpea.writing",
 }
-
-__all__ = list(_HOMES)
 
 
 def __getattr__(name: str) -> Any:

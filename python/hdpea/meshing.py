@@ -17,7 +17,7 @@ from hdpea.particles import Particles
 from hdpea.report import Choice
 from hdpea.surface import Surface
 
-DISK_RADIUS = 1.6
+DISK_RADIUS = 1.8
 """Radius of the disks in mean distances of the particles in R^d."""
 
 MAX_CIRCUMRADIUS = 1.2

@@ -62,7 +62,7 @@ class EmbeddingOptions(_Checked):
     bending_length: Length | None = option(
         None, "length below which the embedding does not bend, as 0.02 or 1%; default: from the vertex budget"
     )
-    metric_scale: float = option(1.0, "c of the metric s^2 = c |k|: larger stretches more", minimum=0)
+    metric_scale: float = option(0.5, "c of the metric s^2 = c |k|: larger stretches more", minimum=0)
     max_stretch: float = option(8.0, "largest stretch of the metric in any direction", minimum=1)
 
 

@@ -65,9 +65,11 @@ class _Cloud:
         self.points = torch.from_numpy(coordinates)  # (n, d)
         self.bases = torch.from_numpy(bases)  # (n, 2, d)
         self.strides = torch.from_numpy(np.hstack([itself, strides]))  # (n, 1 + k)
-        # A particle leaves its point by no more than this, lest it walk off an open border.
-        sixth = self.points[self.strides[:, 6]]
-        self.reach = (sixth - self.points).norm(dim=1)  # (n,)
+        # A particle leaves its point by no more than this, in R^d and in R^3, lest it walk off an open border
+        # or off a fold; the median is no larger where some of the neighbours lie beyond a tear.
+        apart = self.points[self.strides[:, 1:]] - self.points[:, None]  # (n, k, d)
+        self.reach = _median_length(apart)  # (n,)
+        self.reach_in_space = _median_length(apart[:, :, :3])  # (n,)
 
     def project(self, x: torch.Tensor, nearest: torch.Tensor) -> tuple[torch.Tensor, torch.Tensor]:
         """Return particles (m, d) projected to the surface, and their nearest points (m,).
@@ -79,10 +81,10 @@ class _Cloud:
         squared_distances = (self.points[nearby] - x[:, None]).square().sum(dim=-1)  # (m, 1 + k)
         nearest = nearby.gather(1, squared_distances.argmin(dim=1, keepdim=True))[:, 0]  # (m,)
         base, basis = self.points[nearest], self.bases[nearest]  # (m, d), (m, 2, d)
-        offset = (basis @ (x - base)[:, :, None]).mT  # (m, 1, 2)
-        length = offset.norm(dim=2, keepdim=True).clamp_min(1e-300)
-        offset = offset * (self.reach[nearest][:, None, None] / length).clamp_max(1)
-        return base + (offset @ basis)[:, 0], nearest
+        offset = ((basis @ (x - base)[:, :, None]).mT @ basis)[:, 0]  # (m, d)
+        share = offset.norm(dim=1) / self.reach[nearest]  # (m,)
+        longest = share.maximum(offset[:, :3].norm(dim=1) / self.reach_in_space[nearest])
+        return base + offset / longest.clamp_min(1)[:, None], nearest
 
 
 def spread_particles(
@@ -90,6 +92,7 @@ def spread_particles(
     bases: NDArray[np.float64],
     neighbors: NDArray[np.int64],
     count: int,
+    *,
     options: ParticleOptions | None = None,
     progress: Callable[[float], bool] | None = None,
 ) -> Particles:
@@ -133,6 +136,12 @@ def _force(x: torch.Tensor, others: torch.Tensor, squared_width: float) -> torch
     apart = x[:, None] - x[others]  # (m, k, d)
     kernel = (apart.square().sum(dim=-1) / (-4 * squared_width)).exp()  # (m, k)
     return (kernel[:, None] @ apart)[:, 0]
+
+
+def _median_length(vectors: torch.Tensor) -> torch.Tensor:
+    """Return the median length (n,) of each row of vectors (n, k, d) that are not zero; tiny if all are."""
+    lengths = vectors.norm(dim=2)  # (n, k)
+    return lengths.where(lengths > 0, float("nan")).nanmedian(dim=1).values.nan_to_num(1e-300)
 
 
 def _surface_area(seeds: NDArray[np.float64], bases: NDArray[np.float64]) -> float:

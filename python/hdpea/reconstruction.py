@@ -131,9 +131,13 @@ def _mesh_of(surface: Surface, report: Report, progress: ProgressCallback | None
     count = vertices
     for _ in range(ATTEMPTS):
         with report.clock.stage("particles"):
-            spread = of_phase(progress, "particles")
             particles = spread_particles(
-                embedded.coordinates, bases, surface.neighbors, count, options.particles, spread
+                embedded.coordinates,
+                bases,
+                surface.neighbors,
+                count,
+                options=options.particles,
+                progress=of_phase(progress, "particles"),
             )
         with report.clock.stage("meshing"):
             tell(progress, "meshing", 0)

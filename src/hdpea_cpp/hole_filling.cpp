@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hdpea_cpp/hole_filling.hpp"
 
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/triangulate_hole.h>
-#include <CGAL/Simple_cartesian.h>
 
 #include <Eigen/Geometry>
 #include <array>
@@ -16,8 +16,12 @@
 namespace hdpea {
 namespace {
 
-using Point = CGAL::Simple_cartesian<double>::Point_3;
+// CGAL searches a Delaunay triangulation first, which may walk in circles unless predicates are exact.
+using Point = CGAL::Exact_predicates_inexact_constructions_kernel::Point_3;
 using Loop = std::vector<Index>;
+
+// The border of a piece worth keeping is longer than this: fewer edges are a hole, however it folds.
+constexpr std::size_t kFewEdges = 8;
 
 /// A face of a patch, by positions in the loop; the type that CGAL writes.
 struct PatchFace {
@@ -121,6 +125,7 @@ class HoleFiller {
 
   /// Whether the patch mostly lies on the faces around it, facing the other way.
   bool folds_back(const Loop& loop, const std::vector<PatchFace>& patch) const {
+    if (loop.size() <= kFewEdges) return false;
     double sum = 0;
     for (const PatchFace& face : patch) {
       for (int i = 0; i < 3; ++i) {

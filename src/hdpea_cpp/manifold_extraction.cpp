@@ -6,8 +6,9 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <numeric>
 #include <tuple>
+#include <utility>
+#include <vector>
 
 #include "hdpea_cpp/errors.hpp"
 #include "hdpea_cpp/incremental_manifold.hpp"
@@ -54,6 +55,11 @@ class Extractor {
   Eigen::Vector3d position(Index i) const { return coordinates_.row(i).head<3>().transpose(); }
   Eigen::Vector3d face_normal(const Triangle& t) const {
     return (position(t[1]) - position(t[0])).cross(position(t[2]) - position(t[0])).normalized();
+  }
+  /// Positive if the ascending triangle faces the way its points' normals do, times its area.
+  double outwardness(const Triangle& t) const {
+    const Eigen::Vector3d area = (position(t[1]) - position(t[0])).cross(position(t[2]) - position(t[0]));
+    return (normals_.row(t[0]) + normals_.row(t[1]) + normals_.row(t[2])).dot(area.transpose());
   }
   bool agrees_with_points(const Triangle& triangle) const;
   bool folds_back(const Triangle& triangle) const;
@@ -103,19 +109,24 @@ bool Extractor::touches_enough(const Triangle& triangle) const {
 }
 
 bool Extractor::try_insert(const Candidate& candidate) {
+  const auto refuse = [](Index& counter) {
+    ++counter;
+    return false;
+  };
   if (options_.max_circumradius > 0 && candidate.radius > options_.max_circumradius)
-    return ++counts_.refused_size, false;
-  if (!agrees_with_points(candidate.triangle)) return ++counts_.refused_normal, false;
+    return refuse(counts_.refused_size);
+  if (!agrees_with_points(candidate.triangle)) return refuse(counts_.refused_normal);
   switch (mesh_.check(candidate.triangle)) {
     case Verdict::crowded_edge:
-      return ++counts_.refused_edge, false;
+      return refuse(counts_.refused_edge);
     case Verdict::broken_link:
-      return ++counts_.refused_link, false;
+      return refuse(counts_.refused_link);
     case Verdict::not_orientable:
-      return ++counts_.refused_orientation, false;
+      return refuse(counts_.refused_orientation);
     case Verdict::fits:
-      mesh_.insert(candidate.triangle);
+      break;
   }
+  mesh_.insert(candidate.triangle);
   return true;
 }
 
@@ -157,27 +168,25 @@ void Extractor::insert_candidates(const Candidates& candidates) {
 
 ExtractedMesh Extractor::finish() {
   const Index face_count = static_cast<Index>(mesh_.triangles().size());
-  std::vector<Index> piece(static_cast<std::size_t>(face_count)), size(piece.size(), 0);
-  std::vector<double> outward(piece.size(), 0.0);  // of the representative's orientation
-  std::vector<char> flipped(piece.size());
+  std::vector<Index> size(static_cast<std::size_t>(face_count), 0);
+  std::vector<double> outward(size.size(), 0.0);  // how well the representative's orientation suits the normals
   for (Index f = 0; f < face_count; ++f) {
-    const Triangle& t = mesh_.triangles()[f];
-    std::tie(piece[f], flipped[f]) = mesh_.piece_of(f);
-    const Eigen::Vector3d area = (position(t[1]) - position(t[0])).cross(position(t[2]) - position(t[0]));
-    const double agreement = (normals_.row(t[0]) + normals_.row(t[1]) + normals_.row(t[2])).dot(area.transpose());
-    outward[piece[f]] += flipped[f] ? -agreement : agreement;
-    ++size[piece[f]];
+    const auto [representative, flipped] = mesh_.piece_of(f);
+    const double agreement = outwardness(mesh_.triangles()[f]);
+    outward[representative] += flipped ? -agreement : agreement;
+    ++size[representative];
   }
   std::vector<Triangle> kept;
   for (Index f = 0; f < face_count; ++f) {
-    if (size[piece[f]] < options_.min_component_faces) {
+    const auto [representative, flipped] = mesh_.piece_of(f);
+    if (size[representative] < options_.min_component_faces) {
       ++counts_.dropped_faces;
-      counts_.dropped_components += piece[f] == f;
+      counts_.dropped_components += representative == f;
       continue;
     }
-    Triangle t = mesh_.triangles()[f];
-    if ((flipped[f] != 0) != (outward[piece[f]] < 0)) std::swap(t[1], t[2]);
-    kept.push_back(t);
+    Triangle triangle = mesh_.triangles()[f];
+    if (flipped != (outward[representative] < 0)) std::swap(triangle[1], triangle[2]);
+    kept.push_back(triangle);
   }
   ExtractedMesh extracted;
   counts_.split_vertices = split_pinched_vertices(kept, coordinates_.rows(), extracted.faces, extracted.sources);

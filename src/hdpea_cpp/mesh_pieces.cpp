@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hdpea_cpp/mesh_pieces.hpp"
 
-#include <algorithm>
-#include <numeric>
-
 namespace hdpea {
 namespace {
 

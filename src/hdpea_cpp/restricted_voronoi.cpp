@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <numbers>
+#include <vector>
 
 #include "hdpea_cpp/errors.hpp"
 #include "hdpea_cpp/parallel.hpp"

@@ -16,10 +16,10 @@ from hdpea.options import EmbeddingOptions
 from hdpea.report import Choice
 from hdpea.surface import Surface
 
-BENDING_PER_SPACING = 0.7
+BENDING_PER_SPACING = 0.6
 """Bending length in spacings of the vertices to come: finer, and the tangent disks of neighbours disagree."""
 
-CURVATURE_PER_SPACING = 0.9
+CURVATURE_PER_SPACING = 1.0
 """Curvature radius in the same spacings: a little more than the embedding can follow."""
 
 
@@ -47,8 +47,9 @@ def triangle_soup(surface: Surface) -> Soup:
     points = surface.points_in_unit
     planes = _core.tangent_bases_across(_core.blended_normals(surface.normals, surface.neighbors))
     # Twice the distance of the 8th neighbour holds the cell, however uneven the sampling.
-    eighth = np.where(surface.neighbors[:, 7] < 0, surface.neighbors[:, 0], surface.neighbors[:, 7])
-    radii = 2 * np.maximum(np.linalg.norm(points[eighth] - points, axis=1), surface.spacing)
+    eighth = surface.neighbors[:, 7]
+    distances = np.where(eighth < 0, 0.0, np.linalg.norm(points[eighth] - points, axis=1))
+    radii = 2 * np.maximum(distances, surface.spacing)
     candidates = _core.restricted_voronoi_candidates(points, planes, surface.neighbors, radii)
     return Soup(candidates.triangles, candidates.counts / 3, float(candidates.cell_areas.sum()))
 
