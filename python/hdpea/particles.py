@@ -141,7 +141,8 @@ def _force(x: torch.Tensor, others: torch.Tensor, squared_width: float) -> torch
 def _median_length(vectors: torch.Tensor) -> torch.Tensor:
     """Return the median length (n,) of each row of vectors (n, k, d) that are not zero; tiny if all are."""
     lengths = vectors.norm(dim=2)  # (n, k)
-    return lengths.where(lengths > 0, float("nan")).nanmedian(dim=1).values.nan_to_num(1e-300)
+    median: torch.Tensor = lengths.where(lengths > 0, float("nan")).nanmedian(dim=1).values
+    return median.nan_to_num(1e-300)
 
 
 def _surface_area(seeds: NDArray[np.float64], bases: NDArray[np.float64]) -> float:
