@@ -11,6 +11,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "hdpea_cpp/disjoint_sets.hpp"
 #include "hdpea_cpp/errors.hpp"
 
 namespace hdpea {
@@ -20,8 +21,9 @@ namespace {
 using Point = CGAL::Exact_predicates_inexact_constructions_kernel::Point_3;
 using Loop = std::vector<Index>;
 
-// The border of a piece worth keeping is longer than this: fewer edges are a hole, however it folds.
+// A hole of so few edges may fold back, unless its patch is a good part of the whole piece: that is its border.
 constexpr std::size_t kFewEdges = 8;
+constexpr double kGoodPart = 0.25;
 
 /// A face of a patch, by positions in the loop; the type that CGAL writes.
 struct PatchFace {
@@ -35,14 +37,22 @@ std::uint64_t directed_key(Index from, Index to) {
 
 class HoleFiller {
  public:
-  HoleFiller(const PointsRef& vertices, const FacesRef& faces) : vertices_(vertices), faces_(faces) {
+  HoleFiller(const PointsRef& vertices, const FacesRef& faces)
+      : vertices_(vertices),
+        faces_(faces),
+        pieces_(vertices.rows()),
+        piece_areas_(Eigen::VectorXd::Zero(vertices.rows())) {
     opposite_.reserve(static_cast<std::size_t>(3 * faces.rows()));
     for (Index f = 0; f < faces.rows(); ++f) {
       for (int i = 0; i < 3; ++i) {
         const bool first =
             opposite_.emplace(directed_key(faces(f, i), faces(f, (i + 1) % 3)), faces(f, (i + 2) % 3)).second;
         require(first, "fill_holes needs an edge-manifold, oriented mesh");
+        pieces_.join(faces(f, i), faces(f, (i + 1) % 3));
       }
+    }
+    for (Index f = 0; f < faces.rows(); ++f) {
+      piece_areas_(pieces_.find(faces(f, 0))) += area_vector(faces(f, 0), faces(f, 1), faces(f, 2)).norm() / 2;
     }
   }
 
@@ -124,8 +134,9 @@ class HoleFiller {
   }
 
   /// Whether the patch mostly lies on the faces around it, facing the other way.
-  bool folds_back(const Loop& loop, const std::vector<PatchFace>& patch) const {
-    if (loop.size() <= kFewEdges) return false;
+  bool folds_back(const Loop& loop, const std::vector<PatchFace>& patch) {
+    const double piece_area = piece_areas_(pieces_.find(loop[0]));
+    if (loop.size() <= kFewEdges && area(loop, patch) < kGoodPart * piece_area) return false;
     double sum = 0;
     for (const PatchFace& face : patch) {
       for (int i = 0; i < 3; ++i) {
@@ -199,6 +210,8 @@ class HoleFiller {
 
   const PointsRef& vertices_;
   const FacesRef& faces_;
+  DisjointSets pieces_;                                // of vertices
+  Eigen::VectorXd piece_areas_;                        // by the piece's name
   std::unordered_map<std::uint64_t, Index> opposite_;  // of each directed edge: its face's third corner; only looked up
   std::vector<Eigen::RowVector<Index, 3>> added_;
   std::vector<Eigen::RowVector3d> centres_;

@@ -71,6 +71,12 @@ TEST(HoleFilling, AnOuterBorderIsNoHole) {
   EXPECT_TRUE(sound(closed));
 }
 
+TEST(HoleFilling, TheBorderOfAFewFacesIsNoHole) {
+  const auto square = shapes::grid(2, 2);
+  EXPECT_EQ(fill_holes(square.vertices, square.faces, 10).filled, 0);
+  EXPECT_EQ(fill_holes(square.vertices, square.faces, std::numeric_limits<double>::infinity()).filled, 1);
+}
+
 TEST(HoleFilling, ZeroFillsNothing) {
   const auto grid = shapes::grid(3, 3);
   const FilledMesh filled = fill_holes(grid.vertices, grid.faces, 0);
