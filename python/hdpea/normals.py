@@ -93,10 +93,27 @@ def oriented_surface(
             fitted = np.ascontiguousarray(neighbors[:, :count])
             directions[~usable] = _core.estimate_normals(points, fitted)[~usable]
         tell(progress, "normals", 0.5)
-        consistency = _core.orientation_consistency(points, directions, nearest) if usable.any() else None
-        trusted = usable.all() and consistency is not None and consistency >= TRUSTED_CONSISTENCY
-        if not trusted:
-            directions = _core.orient_normals(points, directions, nearest)
+        # Estimated normals have no sign yet; as zeros they have no say.
+        signed = np.where(usable[:, None], directions, 0)
+        consistency = _core.orientation_consistency(points, signed, nearest) if usable.any() else None
+        trusted = consistency is not None and consistency >= TRUSTED_CONSISTENCY
+        if not (trusted and usable.all()):
+            oriented = _core.orient_normals(points, directions, nearest)
+            directions = _with_given_signs(points, oriented, directions, usable) if trusted else oriented
     tell(progress, "normals", 1)
     surface = Surface.of(frame, points, directions, neighbors)
     return OrientedSurface(surface, int((~usable).sum()), consistency, not trusted)
+
+
+def _with_given_signs(
+    points: NDArray[np.float64],
+    oriented: NDArray[np.float64],
+    directions: NDArray[np.float64],
+    usable: NDArray[np.bool_],
+) -> NDArray[np.float64]:
+    """Keep the usable `directions` (n, 3), and turn the `oriented` others as the nearest usable one has it."""
+    kept = np.einsum("nc,nc->n", oriented, directions)[usable] >= 0
+    nearest_usable = _core.nearest_neighbors(points[usable], points[~usable], 1)[:, 0]
+    signed = directions.copy()
+    signed[~usable] = np.where(kept[nearest_usable], 1, -1)[:, None] * oriented[~usable]
+    return signed
