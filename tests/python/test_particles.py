@@ -56,7 +56,9 @@ def test_spacings_hardly_vary(shape: str) -> None:
 
 def test_tangent_bases_are_orthonormal_and_tangent() -> None:
     cloud = embedded("sphere")
-    np.testing.assert_allclose(cloud.bases @ cloud.bases.transpose(0, 2, 1), np.tile(np.eye(2), (3000, 1, 1)), atol=1e-9)
+    np.testing.assert_allclose(
+        cloud.bases @ cloud.bases.transpose(0, 2, 1), np.tile(np.eye(2), (3000, 1, 1)), atol=1e-9
+    )
     in_space = tangent_bases(cloud.surface.points_in_unit, cloud.surface.neighbors)
     assert abs(in_space @ cloud.surface.normals[:, :, None]).max() < 0.2
 
