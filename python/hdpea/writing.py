@@ -7,7 +7,6 @@ from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
-import trimesh
 from numpy.lib.recfunctions import repack_fields
 from numpy.typing import NDArray
 from plyfile import PlyData, PlyElement
@@ -102,6 +101,8 @@ def _records(table: Points, names: list[str]) -> NDArray[np.void]:
 
 
 def _stl(vertices: Points, faces: Faces) -> bytes:
+    import trimesh  # takes a second, which the other formats need not wait for
+
     mesh = trimesh.Trimesh(vertices, faces, process=False)
     loss = abs(vertices - vertices.astype(np.float32)).max(initial=0)
     if loss > FLOAT32_LOSS * np.linalg.norm(np.ptp(vertices, axis=0)):
@@ -110,6 +111,8 @@ def _stl(vertices: Points, faces: Faces) -> bytes:
 
 
 def _glb(vertices: Points, faces: Faces) -> bytes:
+    import trimesh
+
     center = (vertices.min(axis=0) + vertices.max(axis=0)) / 2
     scene = trimesh.Scene()
     scene.add_geometry(
