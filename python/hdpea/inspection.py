@@ -10,11 +10,9 @@ import numpy as np
 from hdpea import _core
 from hdpea.errors import core_errors_translated
 from hdpea.estimates import PEAK_BYTES, SECONDS
-from hdpea.options import POINTS_PER_VERTEX
+from hdpea.normals import ORIENTATION_NEIGHBORS
+from hdpea.options import MeshingOptions
 from hdpea.reading import PointCloud
-
-NEIGHBORS = 6
-"""Neighbours whose normals are compared with the point's."""
 
 
 @dataclass(frozen=True)
@@ -22,8 +20,9 @@ class CloudFacts:
     """What ``hdpea info`` says about a cloud; lengths are in the units of the file.
 
     ``spacing`` is the median distance to the nearest other point. ``normal_agreement`` is the share
-    of neighbouring points whose normals point to the same side, 1 for a consistent orientation. Both
-    are None where there is nothing to compare. The estimates are for the default number of vertices.
+    of neighbouring points whose normals point to the same side, by which a run decides whether to
+    orient them anew. Both are None where there is nothing to compare. The estimates are for the
+    default number of vertices.
     """
 
     format: str
@@ -43,7 +42,7 @@ class CloudFacts:
 def inspect(cloud: PointCloud) -> CloudFacts:
     """Look at a cleaned cloud."""
     low, high = cloud.points.min(axis=0), cloud.points.max(axis=0)
-    vertices = max(4, len(cloud.points) // POINTS_PER_VERTEX)
+    vertices = MeshingOptions().vertices_of(len(cloud.points))
     spacing, agreement = _compare_neighbors(cloud) if len(cloud.points) > 1 else (None, None)
     return CloudFacts(
         format=cloud.format,
@@ -65,10 +64,8 @@ def _compare_neighbors(cloud: PointCloud) -> tuple[float, float | None]:
     # Differences of large coordinates lose digits, so the origin comes to the cloud first.
     centered = cloud.points - cloud.points.mean(axis=0)
     with core_errors_translated():
-        neighbors = _core.nearest_neighbors(centered, min(NEIGHBORS, len(centered) - 1))
-    spacing = float(np.median(np.linalg.norm(centered[neighbors[:, 0]] - centered, axis=1)))
-    if cloud.normals is None:
-        return spacing, None
-    cosines = np.einsum("nkc,nc->nk", cloud.normals[neighbors], cloud.normals)
-    compared = cosines[cosines != 0]
-    return spacing, float(np.mean(compared > 0)) if len(compared) else None
+        neighbors = _core.nearest_neighbors(centered, ORIENTATION_NEIGHBORS)
+        spacing = float(np.median(np.linalg.norm(centered[neighbors[:, 0]] - centered, axis=1)))
+        if cloud.normals is None:
+            return spacing, None
+        return spacing, _core.orientation_consistency(centered, cloud.normals, neighbors)

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from math import inf
 
 import numpy as np
@@ -70,6 +70,8 @@ def extract_mesh(
     with core_errors_translated():
         normals = np.ascontiguousarray(surface.normals[particles.nearest])
         candidates, radius = voronoi_candidates(particles, bases)
+        why = f"{DISK_RADIUS:g} mean distances of the vertices in the embedding"
+        disks = Choice("disk_radius", radius * surface.frame.diagonal, "world units under the metric", why)
         limits = _core.ExtractionOptions()
         limits.max_circumradius = MAX_CIRCUMRADIUS * radius
         limits.min_component_faces = options.min_component
@@ -79,7 +81,8 @@ def extract_mesh(
                 "No triangle holds on these points.", "They may be too few or too noisy; try fewer vertices."
             )
         vertices = np.ascontiguousarray(particles.coordinates[extracted.sources, :3])
-        return _fill_holes(vertices, extracted, surface.frame, options)
+        mesh = _fill_holes(vertices, extracted, surface.frame, options)
+        return replace(mesh, choices=(disks, *mesh.choices))
 
 
 def voronoi_candidates(particles: Particles, bases: NDArray[np.float64]) -> tuple[_core.Candidates, float]:

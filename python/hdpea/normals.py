@@ -13,6 +13,7 @@ from hdpea.errors import UnreadableInput, core_errors_translated
 from hdpea.frame import UnitFrame
 from hdpea.options import NormalOptions
 from hdpea.progress import ProgressCallback, tell
+from hdpea.report import Choice
 from hdpea.surface import NEIGHBORS, Surface, require_surface
 
 TRUSTED_CONSISTENCY = 0.9
@@ -34,12 +35,15 @@ class OrientedSurface:
         Share of neighbours whose given normals agreed in orientation; None without given normals.
     reoriented
         Whether the orientation was made anew.
+    choices
+        What was chosen automatically.
     """
 
     surface: Surface
     estimated: int
     consistency: float | None
     reoriented: bool
+    choices: tuple[Choice, ...] = ()
 
 
 def oriented_surface(
@@ -84,14 +88,20 @@ def oriented_surface(
     points = frame.to_unit(points_in_world)
     require_surface(points)
     tell(progress, "normals", 0)
+    choices: tuple[Choice, ...] = ()
     with core_errors_translated():
         neighbors = _core.nearest_neighbors(points, NEIGHBORS)
         nearest = np.ascontiguousarray(neighbors[:, :ORIENTATION_NEIGHBORS])
         directions = given.copy()
         if not usable.all():
-            count = options.normal_neighbors or max(ORIENTATION_NEIGHBORS, round(2 * points_per_vertex))
-            fitted = np.ascontiguousarray(neighbors[:, :count])
-            directions[~usable] = _core.estimate_normals(points, fitted)[~usable]
+            count = options.normal_neighbors
+            if count is None:
+                count = min(max(ORIENTATION_NEIGHBORS, round(2 * points_per_vertex)), NEIGHBORS)
+                why = f"twice the points per vertex, from {ORIENTATION_NEIGHBORS} to {NEIGHBORS}"
+                choices = (Choice("normal_neighbors", count, "points", why),)
+            fitted = neighbors if count <= NEIGHBORS else _core.nearest_neighbors(points, count)
+            estimated = _core.estimate_normals(points, np.ascontiguousarray(fitted[:, :count]))
+            directions[~usable] = estimated[~usable]
         tell(progress, "normals", 0.5)
         # Estimated normals have no sign yet; as zeros they have no say.
         signed = np.where(usable[:, None], directions, 0)
@@ -102,7 +112,7 @@ def oriented_surface(
             directions = _with_given_signs(points, oriented, directions, usable) if trusted else oriented
     tell(progress, "normals", 1)
     surface = Surface.of(frame, points, directions, neighbors)
-    return OrientedSurface(surface, int((~usable).sum()), consistency, not trusted)
+    return OrientedSurface(surface, int((~usable).sum()), consistency, not trusted, choices)
 
 
 def _with_given_signs(

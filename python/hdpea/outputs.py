@@ -47,6 +47,18 @@ def check_output(path: Path, extensions: Collection[str]) -> None:
         ) from error
 
 
+def check_not_input(path: Path, source: str) -> None:
+    """Make sure that the output does not take the place of the input.
+
+    Raises
+    ------
+    UsageError
+        If both are the same file.
+    """
+    if path.resolve() == Path(source).resolve():
+        raise UsageError(f"{path} is both input and output.", "The scan would be lost; choose another name.")
+
+
 @contextmanager
 def replacing(path: Path) -> Iterator[Path]:
     """Give a temporary path beside `path`, which takes its place at the end, or vanishes after an error.

@@ -66,10 +66,15 @@ class _Cloud:
         self.bases = torch.from_numpy(bases)  # (n, 2, d)
         self.strides = torch.from_numpy(np.hstack([itself, strides]))  # (n, 1 + k)
         # A particle leaves its point by no more than this, in R^d and in R^3, lest it walk off an open border
-        # or off a fold; the median is no larger where some of the neighbours lie beyond a tear.
+        # or off a fold; the median is no larger where some of the neighbours lie beyond a tear. A point at a
+        # border has its neighbours on one side, twice as far: the least reach around it is that of the inside.
         apart = self.points[self.strides[:, 1:]] - self.points[:, None]  # (n, k, d)
-        self.reach = _median_length(apart)  # (n,)
-        self.reach_in_space = _median_length(apart[:, :, :3])  # (n,)
+        self.reach = self._least_around(_median_length(apart))  # (n,)
+        self.reach_in_space = self._least_around(_median_length(apart[:, :, :3]))  # (n,)
+
+    def _least_around(self, values: torch.Tensor) -> torch.Tensor:
+        """Return the least of the values (n,) at each point and its neighbours (n,)."""
+        return values[self.strides].amin(dim=1)
 
     def project(self, x: torch.Tensor, nearest: torch.Tensor) -> tuple[torch.Tensor, torch.Tensor]:
         """Return particles (m, d) projected to the surface, and their nearest points (m,).

@@ -13,12 +13,12 @@ from hdpea.embedding import embed_surface
 from hdpea.errors import HdpeaError, UsageError, core_errors_translated
 from hdpea.meshing import Mesh, extract_mesh
 from hdpea.normals import OrientedSurface, oriented_surface
-from hdpea.options import Options
+from hdpea.options import POINTS_PER_VERTEX, Options
 from hdpea.particles import spread_particles
 from hdpea.progress import ProgressCallback, of_phase, tell
-from hdpea.reading.cloud import PointCloud, cleaned
+from hdpea.reading.cloud import PointCloud, cleaned, from_arrays
 from hdpea.refinement import refine_mesh
-from hdpea.report import Distances, MeshFacts, Report
+from hdpea.report import Choice, Distances, MeshFacts, Report
 from hdpea.surface import Surface
 from hdpea.tangents import tangent_bases
 from hdpea.threads import limited_threads
@@ -76,7 +76,7 @@ def reconstruct(
     CannotReconstruct
         If the points are too few, equal, on a line, or hold no triangle.
     UsageError
-        If more vertices are asked for than there are points.
+        If the arrays are not of these shapes, or more vertices are asked for than there are points.
     Interrupted
         If `progress` cancelled.
 
@@ -92,7 +92,7 @@ def reconstruct(
     options = options or Options()
     report = Report(options)
     with limited_threads(options.threads), core_errors_translated():
-        cloud = cleaned(PointCloud(np.asarray(points, dtype=np.float64), normals))
+        cloud = cleaned(from_arrays(points, normals))
         with report.clock.stage("normals"):
             points_per_vertex = len(cloud.points) / options.meshing.vertices_of(len(cloud.points))
             oriented = oriented_surface(cloud.points, cloud.normals, options.normals, points_per_vertex, progress)
@@ -106,12 +106,11 @@ def reconstruct(
 
 
 def _tell_of_cloud(report: Report, cloud: PointCloud, oriented: OrientedSurface) -> None:
-    report.counts["points"] = len(cloud.points)
-    report.counts["dropped_not_finite"] = cloud.dropped_non_finite
-    report.counts["dropped_duplicates"] = cloud.dropped_duplicates
-    report.counts["normals_estimated"] = oriented.estimated
-    if oriented.estimated:
-        report.notes.append(f"Normals of {oriented.estimated} points were estimated.")
+    report.counts |= cloud.counts() | {"normals_estimated": oriented.estimated}
+    report.choices += oriented.choices
+    report.notes += cloud.notes
+    if oriented.estimated > cloud.unusable_normals:
+        report.notes.append(f"Normals of {oriented.estimated:,} points were estimated.")
     if oriented.reoriented and oriented.consistency is not None:
         share = f"{oriented.consistency:.0%} of neighbours agreed"
         report.notes.append(f"The given normals point both ways ({share}); they were oriented anew.")
@@ -126,6 +125,8 @@ def _mesh_of(surface: Surface, report: Report, progress: ProgressCallback | None
             f"{vertices} vertices were asked for, but there are {points} distinct points.",
             "Ask for at most half as many vertices as there are points.",
         )
+    if options.meshing.vertices is None and options.meshing.faces is None:
+        report.choices.append(Choice("vertices", vertices, "", f"one for every {POINTS_PER_VERTEX} points"))
     with report.clock.stage("embedding"):
         embedded = embed_surface(surface, vertices, options.embedding, progress)
         bases = tangent_bases(embedded.coordinates, surface.neighbors, points / vertices)

@@ -80,9 +80,9 @@ class Report:
     options
         What was asked; the seed is among them.
     source
-        What was read and dropped, filled by the command line.
+        What was read, filled by the command line.
     counts
-        Numbers worth knowing by name: points, uncertain normals, ...
+        How many points there were, how many were dropped and why, how many had normals, by name.
     choices
         Every value that was chosen automatically.
     meshing
@@ -110,8 +110,10 @@ class Report:
 
     def begin_with(self, name: str, cloud: PointCloud, clock: StageClock) -> None:
         """Put the reading of the input, and what it took, before everything else."""
-        self.source = {"name": name, "format": cloud.format, **cloud.counts()}
-        self.notes[:0] = cloud.notes
+        self.source = {"name": name, "format": cloud.format}
+        # Reading dropped what the stages did not get to see.
+        self.counts |= cloud.counts()
+        self.notes[:] = [*cloud.notes, *(note for note in self.notes if note not in cloud.notes)]
         self.clock.stages[:0] = clock.stages
 
     def as_dict(self) -> dict[str, Any]:

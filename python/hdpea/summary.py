@@ -14,7 +14,7 @@ def summarize(report: Report) -> str:
 
 
 def _lines(report: Report) -> Iterator[str]:
-    yield from map(_choice, report.choices)
+    yield from map(describe, report.choices)
     yield from report.notes
     if report.mesh:
         yield _mesh(report.mesh)
@@ -24,7 +24,8 @@ def _lines(report: Report) -> Iterator[str]:
     yield f"took {total.seconds:.1f} s, at most {total.peak_bytes / 1e9:.2f} GB"
 
 
-def _choice(choice: Choice) -> str:
+def describe(choice: Choice) -> str:
+    """Return one automatic choice and its reason as a line."""
     value = f"{choice.value:.4g}" if isinstance(choice.value, float) else str(choice.value)
     return f"{choice.name}: {' '.join(filter(None, [value, choice.unit]))} ({choice.why})"
 

@@ -78,5 +78,6 @@ def require_surface(points_in_unit: NDArray[np.float64]) -> None:
             f"{len(points_in_unit)} distinct points are too few for a surface.", f"Give at least {MIN_POINTS}."
         )
     extents = np.linalg.svd(points_in_unit - points_in_unit.mean(axis=0), compute_uv=False)
-    if extents[1] < 1e-9 * extents[0]:
+    # With room for the rounding of large coordinates: a decimetre at 1e7 metres has steps of 2e-8 of its length.
+    if extents[1] < 1e-6 * extents[0]:
         raise CannotReconstruct("All points lie on a line.", "A surface needs points that are spread over it.")

@@ -30,6 +30,7 @@ class Embedding:
     points: Array
     normals: Array
     coordinates: Array
+    choices: tuple[Choice, ...] = ()
 
 
 def reconstruct(

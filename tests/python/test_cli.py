@@ -79,7 +79,7 @@ def test_the_report_knows_the_flags_and_the_stages(scan: str, tmp_path: Path) ->
     assert report["options"]["meshing"]["vertices"] == 9
     assert report["options"]["meshing"]["fill_holes"] == "2%"
     assert report["options"]["particles"]["seed"] == 5
-    assert report["source"]["points"] == 20
+    assert report["counts"]["points"] == 20
     assert [stage["name"] for stage in report["stages"]] == ["reading", "start-up", "writing"]
 
 

@@ -23,21 +23,23 @@ Examples:
 @click.argument("output", metavar="OUT", type=click.Path(path_type=Path))
 @config_option
 @quiet_option
-@setting_options("normals", "embedding", "run")
+@setting_options("normals", "embedding", "run", also=["vertices"])
 @click.pass_context
 def command(ctx: click.Context, /, *, source: str, output: Path, quiet: bool, **values: Any) -> None:
     """Embed the point cloud IN into R^8, where distances are lengths under the curvature metric.
 
     OUT is NPZ (arrays points and normals of shape (n, 3), coordinates of shape (n, 8)) or PLY
-    (embedding_0 to embedding_7 as properties of the points). IN is as for reconstruct.
+    (embedding_0 to embedding_7 as properties of the points). IN is as for reconstruct. It shows
+    as much detail as a mesh of that many --vertices can.
     """
     options = chosen_options(ctx, values)
-    from hdpea.outputs import check_output
+    from hdpea.outputs import check_not_input, check_output
     from hdpea.progress import shown, tell
     from hdpea.reading import read_points
     from hdpea.writing import POINT_FORMATS, write_points
 
     check_output(output, POINT_FORMATS)
+    check_not_input(output, source)
     with shown(quiet) as progress:
         tell(progress, "reading", 0.0)
         cloud = read_points(source)
@@ -47,5 +49,7 @@ def command(ctx: click.Context, /, *, source: str, output: Path, quiet: bool, **
         embedding = embed_points(cloud.points, cloud.normals, options, progress)
         tell(progress, "writing", 0.0)
         write_points(output, embedding.points, embedding.normals, embedding.coordinates)
-    if not quiet and cloud.notes:
-        click.echo("\n".join(cloud.notes), err=True)
+    if not quiet:
+        from hdpea.summary import describe
+
+        click.echo("\n".join([*map(describe, embedding.choices), *cloud.notes]), err=True)

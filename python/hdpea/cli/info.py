@@ -47,10 +47,7 @@ def _describe(facts: CloudFacts) -> str:
         "extent": " x ".join(f"{length:.6g}" for length in extent) + f", diagonal {facts.diagonal:.6g}",
         "spacing": "unknown" if facts.spacing is None else f"{facts.spacing:.4g} (median to the nearest point)",
         "normals": _normals(facts),
-        "a run needs": (
-            f"about {facts.estimated_seconds:.0f} s and {facts.estimated_peak_bytes / 1e9:.1f} GB "
-            f"for {facts.default_vertices:,} vertices"
-        ),
+        "a run needs": _needs(facts),
     }
     return "\n".join([*(f"{name:<12}{value}" for name, value in rows.items()), *facts.notes])
 
@@ -63,7 +60,19 @@ def _normals(facts: CloudFacts) -> str:
     usable, unusable = facts.counts["usable_normals"], facts.counts["unusable_normals"]
     if not usable:
         return "none usable, will be estimated" if unusable else "none, will be estimated"
-    agreement = (
-        "" if facts.normal_agreement is None else f", {facts.normal_agreement:.1%} of neighbours agree on the side"
-    )
-    return f"{usable:,} usable{agreement}"
+    if facts.normal_agreement is None:
+        return f"{usable:,} usable"
+    from hdpea.normals import TRUSTED_CONSISTENCY
+
+    trusted = facts.normal_agreement >= TRUSTED_CONSISTENCY
+    fate = "their orientation will be kept" if trusted else "they will be oriented anew"
+    return f"{usable:,} usable, {facts.normal_agreement:.1%} of neighbours agree on the side: {fate}"
+
+
+def _needs(facts: CloudFacts) -> str:
+    from hdpea.surface import MIN_POINTS
+
+    if facts.counts["points"] < MIN_POINTS:
+        return f"at least {MIN_POINTS} points"
+    cost = f"about {facts.estimated_seconds:.0f} s and {facts.estimated_peak_bytes / 1e9:.1f} GB"
+    return f"{cost} for {facts.default_vertices:,} vertices, on two cores"

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Collection, Mapping
 from typing import Any, TypeVar
 
 import click
@@ -55,9 +55,10 @@ class GroupedCommand(click.Command):
 quiet_option = click.option("--quiet", cls=GroupedOption, is_flag=True, help="say nothing but errors")
 
 
-def setting_options(*stages: str) -> Callable[[Decorated], Decorated]:
-    """Add a flag for every setting of the given stages, in their order."""
-    chosen = [each for stage in stages for each in settings() if each.stage == stage]
+def setting_options(*stages: str, also: Collection[str] = ()) -> Callable[[Decorated], Decorated]:
+    """Add a flag for every setting of the given stages, in their order, and for those settings `also`."""
+    chosen = [each for each in settings() if each.name in also]
+    chosen += [each for stage in stages for each in settings() if each.stage == stage]
 
     def decorate(function: Decorated) -> Decorated:
         # Decorators work from the last to the first.

@@ -10,7 +10,7 @@ import click
 
 from hdpea.cli.config import config_option
 from hdpea.cli.parameters import GroupedCommand, GroupedOption, chosen_options, quiet_option, setting_options
-from hdpea.errors import QualityMissed, UsageError
+from hdpea.errors import QualityMissed
 
 EPILOG = """\b
 Examples:
@@ -93,13 +93,12 @@ def command(
 
 
 def _check_outputs(source: str, output: Path, report: Path | None, picture: Path | None) -> None:
-    from hdpea.outputs import check_output
+    from hdpea.outputs import check_not_input, check_output
     from hdpea.picture import PICTURE_FORMATS, check_drawing
     from hdpea.writing import MESH_FORMATS
 
     check_output(output, MESH_FORMATS)
-    if output.resolve() == Path(source).resolve():
-        raise UsageError(f"{output} is both input and output.", "The scan would be lost; choose another name.")
+    check_not_input(output, source)
     if report:
         check_output(report, [".json"])
     if picture:

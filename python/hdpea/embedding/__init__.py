@@ -20,8 +20,10 @@ from hdpea.frame import UnitFrame
 from hdpea.normals import oriented_surface
 from hdpea.options import EmbeddingOptions, Options
 from hdpea.progress import ProgressCallback, of_phase
-from hdpea.reading.cloud import PointCloud, cleaned
+from hdpea.reading.cloud import cleaned, from_arrays
+from hdpea.report import Choice
 from hdpea.surface import Surface
+from hdpea.threads import limited_threads
 
 Embedder = Callable[[Surface, int, EmbeddingOptions, Callable[[float], bool]], Embedded]
 
@@ -42,12 +44,15 @@ class Embedding:
         (n, 8) float64: the points in the unit frame, then psi.
     world_from_unit
         The unit frame.
+    choices
+        What was chosen automatically.
     """
 
     points: NDArray[np.float64]
     normals: NDArray[np.float64]
     coordinates: NDArray[np.float64]
     world_from_unit: UnitFrame
+    choices: tuple[Choice, ...] = ()
 
 
 def embed_surface(
@@ -77,11 +82,16 @@ def embed_points(
     ------
     CannotReconstruct
         If the points are too few, equal or on a line.
+    UsageError
+        If the arrays are not of these shapes.
     """
     options = options or Options()
-    cloud = cleaned(PointCloud(points, normals))
-    vertices = options.meshing.vertices_of(len(cloud.points))
-    per_vertex = len(cloud.points) / vertices
-    surface = oriented_surface(cloud.points, cloud.normals, options.normals, per_vertex, progress).surface
-    embedded = embed_surface(surface, vertices, options.embedding, progress)
-    return Embedding(cloud.points, surface.normals, embedded.coordinates, surface.frame)
+    with limited_threads(options.threads):
+        cloud = cleaned(from_arrays(points, normals))
+        vertices = options.meshing.vertices_of(len(cloud.points))
+        per_vertex = len(cloud.points) / vertices
+        oriented = oriented_surface(cloud.points, cloud.normals, options.normals, per_vertex, progress)
+        surface = oriented.surface
+        embedded = embed_surface(surface, vertices, options.embedding, progress)
+    choices = (*oriented.choices, *embedded.choices)
+    return Embedding(cloud.points, surface.normals, embedded.coordinates, surface.frame, choices)

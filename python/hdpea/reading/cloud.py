@@ -8,9 +8,9 @@ from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
-from hdpea.errors import UnreadableInput
+from hdpea.errors import UnreadableInput, UsageError
 
 NORMAL_NAMES = (("nx", "ny", "nz"), ("normal_x", "normal_y", "normal_z"), ("normalx", "normaly", "normalz"))
 
@@ -81,6 +81,31 @@ def from_columns(columns: Mapping[str, NDArray[Any]], format: str, notes: Iterab
     normals = next((taken for names in NORMAL_NAMES if (taken := take(names)) is not None), None)
     attributes = {name: columns[name] for name in lowered.values()}
     return PointCloud(points, normals, attributes, format, tuple(notes))
+
+
+def from_arrays(points: ArrayLike, normals: ArrayLike | None = None) -> PointCloud:
+    """Take a caller's arrays, points (n, 3) and normals (n, 3), of any number type.
+
+    Raises
+    ------
+    UsageError
+        If they are not numbers of these shapes.
+    """
+    found = _rows(points, "points")
+    given = None if normals is None else _rows(normals, "normals")
+    if given is not None and len(given) != len(found):
+        raise UsageError(f"There are {len(found)} points but {len(given)} normals.", "Each point needs its own.")
+    return PointCloud(found, given)
+
+
+def _rows(array: ArrayLike, name: str) -> NDArray[np.float64]:
+    try:
+        rows = np.asarray(array, dtype=np.float64)
+    except (TypeError, ValueError) as error:
+        raise UsageError(f"The {name} are not numbers: {error}.", f"Give {name} as an (n, 3) array.") from error
+    if rows.ndim != 2 or rows.shape[1] != 3:
+        raise UsageError(f"The {name} have shape {rows.shape}.", f"Give {name} as an (n, 3) array.")
+    return rows
 
 
 def cleaned(cloud: PointCloud) -> PointCloud:
