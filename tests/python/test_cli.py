@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The commands, with stand-ins for the work behind them."""
+"""The commands, their flags and their outputs; stand-ins where a test needs the work to go wrong."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ import sys
 from collections.abc import Callable
 from pathlib import Path
 
+import clouds
 import numpy as np
 import pytest
 import standins
@@ -17,11 +18,13 @@ from shapes import sphere
 
 from hdpea.cli import run
 from hdpea.reading import read_points
+from hdpea.reconstruction import PHASES
+from hdpea.writing import MESH_FORMATS
 
 Capture = pytest.CaptureFixture[str]
 
 
-@pytest.fixture(autouse=True)
+@pytest.fixture
 def stand_ins(monkeypatch: pytest.MonkeyPatch) -> None:
     for name in ("hdpea.reconstruction", "hdpea.embedding"):
         monkeypatch.setitem(sys.modules, name, sys.modules.get(name))
@@ -30,8 +33,8 @@ def stand_ins(monkeypatch: pytest.MonkeyPatch) -> None:
 
 @pytest.fixture
 def scan(tmp_path: Path) -> str:
-    (tmp_path / "scan.ply").write_bytes(WITH_NORMALS["binary.ply"])
-    return str(tmp_path / "scan.ply")
+    np.savetxt(tmp_path / "scan.xyz", np.hstack(clouds.torus(800)))
+    return str(tmp_path / "scan.xyz")
 
 
 @pytest.fixture
@@ -50,11 +53,13 @@ def failed(capsys: Capture) -> Callable[..., str]:
 
 def test_a_mesh_is_made_and_summed_up(scan: str, tmp_path: Path, capsys: Capture) -> None:
     assert run(["reconstruct", scan, str(tmp_path / "mesh.obj")]) == 0
-    assert len(trimesh.load(tmp_path / "mesh.obj", process=False).faces) == 1
+    assert len(trimesh.load(tmp_path / "mesh.obj", process=False).faces) == 200
     told = capsys.readouterr()
     assert told.out == ""
     assert "reading ..." in told.err
-    assert "mesh: 3 vertices, 1 face, manifold, 1 boundary loop" in told.err
+    assert "vertices: 100 (one for every 8 points)" in told.err
+    assert "mesh: 100 vertices, 200 faces, manifold, closed, 1 component, genus 1" in told.err
+    assert "points to mesh: rms" in told.err
 
 
 def test_quiet_is_silent(scan: str, tmp_path: Path, capsys: Capture) -> None:
@@ -68,7 +73,7 @@ def test_the_report_knows_the_flags_and_the_stages(scan: str, tmp_path: Path) ->
         scan,
         str(tmp_path / "mesh.ply"),
         "--vertices",
-        "9",
+        "90",
         "--fill-holes",
         "2%",
         "--seed",
@@ -76,19 +81,20 @@ def test_the_report_knows_the_flags_and_the_stages(scan: str, tmp_path: Path) ->
     ]
     assert run([*arguments, "--report", str(tmp_path / "report.json")]) == 0
     report = json.loads((tmp_path / "report.json").read_text())
-    assert report["options"]["meshing"]["vertices"] == 9
+    assert report["options"]["meshing"]["vertices"] == report["mesh"]["vertices"] == 90
     assert report["options"]["meshing"]["fill_holes"] == "2%"
     assert report["options"]["particles"]["seed"] == 5
-    assert report["counts"]["points"] == 20
-    assert [stage["name"] for stage in report["stages"]] == ["reading", "start-up", "writing"]
+    assert report["counts"]["points"] == 800
+    assert report["source"] == {"name": scan, "format": "text, 6 columns"}
+    assert [stage["name"] for stage in report["stages"]] == ["reading", "start-up", *PHASES, "writing"]
 
 
-def test_what_was_dropped_is_told(tmp_path: Path, capsys: Capture) -> None:
-    (tmp_path / "scan.xyz").write_text("0 0 0\n1 0 0\n0 1 0\n0 0 0\nnan 0 0\n")
-    assert run(["reconstruct", str(tmp_path / "scan.xyz"), str(tmp_path / "mesh.obj")]) == 0
-    told = capsys.readouterr().err
-    assert "NaN or infinite coordinates: 1." in told
-    assert "occur twice: 1." in told
+@pytest.mark.parametrize("extension", MESH_FORMATS)
+def test_every_format_holds_the_whole_mesh(extension: str, scan: str, tmp_path: Path) -> None:
+    assert run(["reconstruct", scan, str(tmp_path / f"mesh{extension}"), "--quiet"]) == 0
+    mesh = trimesh.load(tmp_path / f"mesh{extension}", force="mesh")
+    assert len(mesh.faces) == 200
+    assert mesh.is_watertight
 
 
 @pytest.mark.slow
@@ -97,22 +103,37 @@ def test_a_picture_is_drawn(scan: str, tmp_path: Path) -> None:
     assert (tmp_path / "mesh.png").read_bytes().startswith(b"\x89PNG")
 
 
-def test_an_embedding_is_written(scan: str, tmp_path: Path) -> None:
+def test_an_embedding_is_written(scan: str, tmp_path: Path, capsys: Capture) -> None:
     assert run(["embed", scan, str(tmp_path / "points.npz"), "--normals", "estimate"]) == 0
-    assert read_points(tmp_path / "points.npz").attributes["coordinates"].shape == (20, 8)
+    written = read_points(tmp_path / "points.npz")
+    assert written.attributes["coordinates"].shape == (800, 8)
+    np.testing.assert_allclose(written.points, clouds.torus(800)[0])
+    told = capsys.readouterr().err
+    assert "bending_length: " in told
+    assert "normal_neighbors: 16 points" in told
 
 
+@pytest.mark.parametrize("command", ["reconstruct", "embed"])
+def test_an_output_never_takes_the_place_of_its_input(command: str, tmp_path: Path, failed: Callable[..., str]) -> None:
+    (tmp_path / "scan.ply").write_bytes(WITH_NORMALS["binary.ply"])
+    assert "both input and output" in failed(2, command, tmp_path / "scan.ply", tmp_path / "scan.ply")
+    assert (tmp_path / "scan.ply").read_bytes() == WITH_NORMALS["binary.ply"]
+
+
+@pytest.mark.usefixtures("stand_ins")
 def test_a_missed_target_keeps_the_mesh_but_is_an_error(scan: str, tmp_path: Path, failed: Callable[..., str]) -> None:
     assert "1 hole" in failed(5, "reconstruct", scan, tmp_path / "mesh.obj", "--watertight")
     assert (tmp_path / "mesh.obj").exists()
 
 
+@pytest.mark.usefixtures("stand_ins")
 def test_an_internal_error_is_one_sentence(scan: str, tmp_path: Path, failed: Callable[..., str]) -> None:
     error = failed(1, "reconstruct", scan, tmp_path / "mesh.obj", "--seed", str(standins.FAILING_SEED))
     assert "Internal error: ZeroDivisionError: a bug" in error
     assert not (tmp_path / "mesh.obj").exists()
 
 
+@pytest.mark.usefixtures("stand_ins")
 def test_a_traceback_is_shown_on_demand(scan: str, capsys: Capture, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("HDPEA_TRACEBACK", "")
     assert run(["--debug", "reconstruct", scan, scan + ".obj", "--seed", str(standins.FAILING_SEED)]) == 1
@@ -147,7 +168,11 @@ def test_wrong_usage_is_found_at_once(
 
 @pytest.mark.parametrize(
     ("output", "reason"),
-    [("mesh.docx", ".obj"), ("nowhere/mesh.obj", "no folder"), ("scan.ply", "both input and output")],
+    [
+        ("mesh.docx", ".obj"),
+        ("nowhere/mesh.obj", "no folder"),
+        ("/proc/mesh.obj", "in /proc"),  # where not even root may write
+    ],
 )
 def test_outputs_that_cannot_be_are_found_at_once(
     output: str, reason: str, scan: str, tmp_path: Path, failed: Callable[..., str]
@@ -159,11 +184,27 @@ def test_an_unknown_command_is_wrong_usage(failed: Callable[..., str]) -> None:
     assert "reconstrukt" in failed(2, "reconstrukt")
 
 
-def test_info_says_what_is_in_a_file(scan: str, capsys: Capture) -> None:
-    assert run(["info", scan]) == 0
+def test_info_says_what_is_in_a_file(tmp_path: Path, capsys: Capture) -> None:
+    (tmp_path / "scan.ply").write_bytes(WITH_NORMALS["binary.ply"])
+    assert run(["info", str(tmp_path / "scan.ply")]) == 0
     told = capsys.readouterr().out
     assert "binary little-endian PLY" in told
     assert "20 usable" in told
+
+
+@pytest.mark.parametrize(("sign", "fate"), [(1.0, "will be kept"), (-1.0, "oriented anew")])
+def test_info_says_what_becomes_of_the_normals(sign: float, fate: str, tmp_path: Path, capsys: Capture) -> None:
+    points, normals = clouds.torus(800)
+    normals[::2] *= sign
+    np.savetxt(tmp_path / "scan.xyz", np.hstack([points, normals]))
+    assert run(["info", str(tmp_path / "scan.xyz")]) == 0
+    assert fate in capsys.readouterr().out
+
+
+def test_info_says_that_points_are_too_few(tmp_path: Path, capsys: Capture) -> None:
+    np.savetxt(tmp_path / "scan.xyz", sphere(15))
+    assert run(["info", str(tmp_path / "scan.xyz")]) == 0
+    assert "a run needs at least 16 points" in capsys.readouterr().out
 
 
 def test_info_as_json(tmp_path: Path, capsys: Capture) -> None:

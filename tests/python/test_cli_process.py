@@ -10,6 +10,8 @@ import sys
 import time
 from pathlib import Path
 
+import clouds
+import numpy as np
 import pytest
 import standins
 from files import WITH_NORMALS
@@ -51,12 +53,16 @@ def stand_in(*arguments: str | Path) -> list[str]:
     return [sys.executable, str(HERE / "standins.py"), *map(str, arguments)]
 
 
-def test_standard_input_is_read(tmp_path: Path) -> None:
-    ran = subprocess.run(
-        stand_in("reconstruct", "-", tmp_path / "mesh.obj", "--quiet"), input=WITH_NORMALS["text.ply"], check=True
-    )
-    assert ran.returncode == 0
-    assert (tmp_path / "mesh.obj").exists()
+def command(*arguments: str | Path) -> list[str]:
+    return [sys.executable, "-m", "hdpea", *map(str, arguments)]
+
+
+@pytest.mark.slow
+def test_a_pipe_makes_a_mesh_and_says_nothing_if_quiet(tmp_path: Path) -> None:
+    script = command("reconstruct", "-", tmp_path / "mesh.obj", "--quiet")
+    ran = subprocess.run(script, input=WITH_NORMALS["text.ply"], capture_output=True, check=True)
+    assert (ran.stdout, ran.stderr) == (b"", b"")
+    assert (tmp_path / "mesh.obj").read_text().count("v ") == 12
 
 
 def test_no_arguments_show_the_help_and_are_wrong_usage() -> None:
@@ -65,13 +71,15 @@ def test_no_arguments_show_the_help_and_are_wrong_usage() -> None:
     assert "reconstruct" in ran.stderr
 
 
-def interrupted(script: list[str]) -> tuple[int, str, float]:
-    """Run a command, send it Ctrl-C once it says ``meshing``; return exit code, errors and seconds until the end."""
+def interrupted(script: list[str], phase: str = "meshing") -> tuple[int, str, float]:
+    """Run a command, send it Ctrl-C once it says a phase; return exit code, errors and seconds until the end."""
     process = subprocess.Popen(script, stderr=subprocess.PIPE, env={**os.environ, "PYTHONUNBUFFERED": "1"})
     assert process.stderr is not None
     told = b""
-    while not told.endswith(b"meshing ..."):
-        told += process.stderr.read(1)
+    while not told.endswith(f"{phase} ...".encode()):
+        byte = process.stderr.read(1)
+        assert byte, told.decode()
+        told += byte
     time.sleep(0.1)
     started = time.perf_counter()
     process.send_signal(signal.SIGINT)
@@ -92,6 +100,21 @@ def test_ctrl_c_ends_at_once_and_leaves_nothing(sleeping: list[str], tmp_path: P
     assert "Traceback" not in told
     assert seconds < 1
     assert [each.name for each in tmp_path.iterdir()] == ["scan.ply"]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("phase", ["embedding", "particles"])
+def test_ctrl_c_ends_a_real_run_wherever_it_is(phase: str, tmp_path: Path) -> None:
+    np.save(tmp_path / "scan.npy", clouds.sphere(40_000)[0])
+    (tmp_path / "mesh.obj").write_text("the mesh of the last run")
+    script = command("reconstruct", tmp_path / "scan.npy", tmp_path / "mesh.obj", "--report", tmp_path / "told.json")
+    exit_code, told, seconds = interrupted(script, phase)
+    assert exit_code == 130
+    assert "Error: Interrupted" in told
+    assert "Traceback" not in told
+    assert seconds < 3
+    assert {each.name for each in tmp_path.iterdir()} == {"scan.npy", "mesh.obj"}
+    assert (tmp_path / "mesh.obj").read_text() == "the mesh of the last run"
 
 
 def test_ctrl_c_ends_compiled_code_that_never_looks_up(tmp_path: Path) -> None:

@@ -91,7 +91,8 @@ def run(arguments: Sequence[str] | None = None) -> int:
 def _tell(told: HdpeaError, cause: BaseException) -> int:
     if os.environ.get(TRACEBACK):
         traceback.print_exception(cause)
+    hint = told.hint or ("--help explains the options." if isinstance(told, UsageError) else "")
     click.echo(f"Error: {told.message}", err=True)
-    if told.hint:
-        click.echo(f"Hint: {told.hint}", err=True)
+    if hint:
+        click.echo(f"Hint: {hint}", err=True)
     return told.exit_code
