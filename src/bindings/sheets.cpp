@@ -8,6 +8,7 @@ void register_sheets(nb::module_& module) {
   nb::class_<SheetOptions>(module, "SheetOptions", "When two nearby points lie on the same sheet.")
       .def(nb::init<>())
       .def_rw("min_cosine", &SheetOptions::min_cosine)
+      .def_rw("max_slope", &SheetOptions::max_slope)
       .def_rw("rim_gap", &SheetOptions::rim_gap)
       .def_rw("rim_distance", &SheetOptions::rim_distance);
   module.def("sheet_neighbors", &hdpea::sheet_neighbors, "points"_a, "normals"_a, "neighbors"_a,

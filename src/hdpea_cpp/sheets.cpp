@@ -35,6 +35,14 @@ bool is_rim(const PointsRef& points, const PointsRef& normals, const NeighborsRe
   return widest * 180 / std::numbers::pi >= options.rim_gap;
 }
 
+/// Whether j lies above or below i rather than beside it, by more than `gap`, as seen along both normals.
+bool is_stacked(const PointsRef& points, const PointsRef& normals, Index i, Index j, double gap,
+                const SheetOptions& options) {
+  const Eigen::RowVector3d offset = points.row(j) - points.row(i);
+  const double height = std::min(std::abs(offset.dot(normals.row(i))), std::abs(offset.dot(normals.row(j))));
+  return height > gap && height > options.max_slope * offset.norm();
+}
+
 double third_distance(const PointsRef& points, const NeighborsRef& neighbors, Index i) {
   Index last = i;
   for (Index at = 0; at < std::min<Index>(3, neighbors.cols()) && neighbors(i, at) >= 0; ++at) last = neighbors(i, at);
@@ -59,7 +67,8 @@ Neighbors sheet_neighbors(const PointsRef& points, const PointsRef& normals, con
     Index count = 0;
     for (Index j : neighbors.row(i)) {
       if (j < 0) continue;
-      const bool agree = normals.row(i).dot(normals.row(j)) >= options.min_cosine;
+      const bool agree = normals.row(i).dot(normals.row(j)) >= options.min_cosine &&
+                         !is_stacked(points, normals, i, j, std::min(reach[i], reach[j]), options);
       const bool meet = rim[i] && rim[j] && (points.row(j) - points.row(i)).norm() <= std::max(reach[i], reach[j]);
       if (agree || meet) kept(i, count++) = j;
     }

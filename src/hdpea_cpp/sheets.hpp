@@ -8,6 +8,7 @@ namespace hdpea {
 /// When two nearby points lie on the same sheet of the surface.
 struct SheetOptions {
   double min_cosine = -0.2;   ///< least n . n' of neighbours on one sheet: a right angle is still one sheet
+  double max_slope = 0.7;     ///< sine of the steepest way to a neighbour farther off than rim_distance
   double rim_gap = 150;       ///< degrees without a neighbour that make a point the rim of its sheet
   double rim_distance = 1.5;  ///< sheets meet at their rims within this many distances of the 3rd neighbour
 };
@@ -15,7 +16,8 @@ struct SheetOptions {
 /// Keeps, of each row, the neighbours on the same sheet.
 ///
 /// The two sides of a thin wall are near in space but not along the surface, and one neighbour from the
-/// other side ruins a tangent plane or a curvature: neighbours whose normals disagree are left out. The two
+/// other side ruins a tangent plane or a curvature: neighbours whose normals disagree are left out, and so
+/// are those of a parallel sheet, which lie above or below rather than beside the point. The two
 /// sides of a knife's edge disagree as well but do meet: there both points are rims of their sheets (their
 /// own sheet's neighbours leave a wide gap around them), and neighbours of each other are kept.
 ///

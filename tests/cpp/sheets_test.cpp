@@ -37,6 +37,12 @@ TEST(Sheets, TheTwoSidesOfAWallDoNotSeeEachOther) {
   EXPECT_FALSE(halves_touch(sheet_of(wall), [](Index) { return true; }));
 }
 
+TEST(Sheets, ParallelSheetsThatFaceTheSameWayDoNotSeeEachOther) {
+  // Of the neighbours that tangents are made of; the far ones of a corner see the other sheet at a slant.
+  const auto sheets = clouds::joined(clouds::plane(2500), clouds::plane(2500, -0.06));
+  EXPECT_FALSE(halves_touch(sheet_of(sheets, 12), [](Index) { return true; }));
+}
+
 TEST(Sheets, TheTwoSidesOfAKnifesEdgeMeetAtTheEdgeOnly) {
   // Two squares that meet along x = 0 at an angle of 20 degrees.
   auto upper = clouds::plane(2500), lower = clouds::plane(2500);

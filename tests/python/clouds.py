@@ -22,6 +22,13 @@ def sphere(count: int, seed: int = 0) -> Cloud:
     return points, points.copy()
 
 
+def hollow_sphere(count: int, spacings_thick: float) -> Cloud:
+    """Return a unit sphere, and inside it another that faces inwards: the two sides of a thin wall."""
+    thickness = spacings_thick * (4 * np.pi / (count / 2)) ** 0.5
+    (outer, out), (inner, _) = sphere(count // 2, seed=1), sphere(count // 2, seed=2)
+    return np.vstack([outer, (1 - thickness) * inner]), np.vstack([out, -inner])
+
+
 def torus(count: int, seed: int = 0) -> Cloud:
     """Return a torus with radii 1 and 0.4."""
     random = np.random.default_rng(seed)
