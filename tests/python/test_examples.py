@@ -1,0 +1,34 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The examples run as they are."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+from hdpea.reading import read_points
+
+EXAMPLES = Path(__file__).parents[2] / "examples"
+
+
+def run(script: str, *arguments: object) -> str:
+    command = [sys.executable, str(EXAMPLES / script), *map(str, arguments)]
+    return subprocess.run(command, check=True, capture_output=True, text=True).stdout
+
+
+@pytest.mark.slow
+def test_a_shape_becomes_a_scan_becomes_a_mesh(tmp_path: Path) -> None:
+    scan, mesh = tmp_path / "cone.ply", tmp_path / "cone.obj"
+    run("shapes.py", "cone", scan, "--points", 3_000)
+    assert len(read_points(scan).points) == 3_000
+    assert "3000 points -> 300 vertices" in run("reconstruct_a_scan.py", scan, mesh)
+    assert {each.suffix for each in tmp_path.iterdir()} == {".ply", ".obj", ".json", ".png"}
+
+
+@pytest.mark.slow
+def test_the_stages_by_hand_make_a_mesh(tmp_path: Path) -> None:
+    assert "2000 faces" in run("stages_by_hand.py", tmp_path / "torus.obj")
+    assert len(read_points(tmp_path / "torus.obj").points) == 1_000
