@@ -43,12 +43,12 @@ def run_once(cloud: Path, folder: Path, arguments: tuple[str, ...]) -> Run:
 
 
 def seconds_by_stage(run: Run) -> dict[str, float]:
-    """Return the seconds of each stage, those that ran twice added up, in the order of the run."""
+    """Return the seconds of each stage, those that ran twice added up, and of what no stage holds."""
     seconds: dict[str, float] = {}
     for stage in run["report"]["stages"]:
         if stage["level"] == 0:
             seconds[stage["name"]] = seconds.get(stage["name"], 0) + stage["seconds"]
-    return seconds
+    return seconds | {"Python and imports": run["seconds"] - sum(seconds.values())}
 
 
 def print_row(label: str, values: list[float], digits: int) -> None:
