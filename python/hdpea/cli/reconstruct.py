@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from importlib import import_module
 from pathlib import Path
 from typing import Any
 
@@ -72,6 +73,9 @@ def command(
         tell(progress, "start-up", 0.0)
         with clock.stage("start-up"):
             from hdpea.reconstruction import reconstruct
+
+            # Or the clock would not see it: the stages load it when they first need it.
+            import_module("torch")
         result = reconstruct(cloud.points, cloud.normals, options, progress)
         result.report.begin_with(source, cloud, clock)
         tell(progress, "writing", 0.0)
