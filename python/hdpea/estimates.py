@@ -18,8 +18,8 @@ class Cost:
 
     def of(self, points: int, vertices: int) -> float:
         """Return the cost of making a mesh of so many vertices from so many points."""
-        for_points = self.per_thousand_points * (points / 1000) ** self.points_power
-        for_vertices = self.per_thousand_vertices * (vertices / 1000) ** self.vertices_power
+        for_points: float = self.per_thousand_points * (points / 1000) ** self.points_power
+        for_vertices: float = self.per_thousand_vertices * (vertices / 1000) ** self.vertices_power
         return self.fixed + for_points + for_vertices
 
 
