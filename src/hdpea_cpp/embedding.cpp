@@ -177,7 +177,11 @@ class PinnedMeans {
       sets.join(triangles(t, 0), triangles(t, 1));
       sets.join(triangles(t, 0), triangles(t, 2));
     }
-    for (Index v = 0; v < psi.rows(); ++v) piece_[v] = sets.find(v);
+    piece_areas_ = Eigen::VectorXd::Zero(psi.rows());
+    for (Index v = 0; v < psi.rows(); ++v) {
+      piece_[v] = sets.find(v);
+      piece_areas_(piece_[v]) += areas(v);
+    }
     pinned_ = means(psi);
   }
 
@@ -190,16 +194,13 @@ class PinnedMeans {
   /// Means by area, in the row of each piece's first vertex.
   Psi means(const Psi& psi) const {
     Psi sums = Psi::Zero(psi.rows(), 5);
-    Eigen::VectorXd area = Eigen::VectorXd::Zero(psi.rows());
-    for (Index v = 0; v < psi.rows(); ++v) {
-      sums.row(piece_[v]) += areas_(v) * psi.row(v);
-      area(piece_[v]) += areas_(v);
-    }
-    return area.cwiseMax(1e-300).cwiseInverse().asDiagonal() * sums;
+    for (Index v = 0; v < psi.rows(); ++v) sums.row(piece_[v]) += areas_(v) * psi.row(v);
+    return piece_areas_.cwiseMax(1e-300).cwiseInverse().asDiagonal() * sums;
   }
 
   std::vector<Index> piece_;
   const Eigen::VectorXd& areas_;
+  Eigen::VectorXd piece_areas_;  // in the row of each piece's first vertex
   Psi pinned_;
 };
 

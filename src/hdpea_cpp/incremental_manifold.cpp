@@ -35,26 +35,6 @@ bool IncrementalManifold::opposite_parity(const Triangle& first, const Triangle&
   return ascends(first, a, b) == ascends(second, a, b);
 }
 
-std::pair<Index, bool> IncrementalManifold::piece_of(Index face) {
-  Index root = face;
-  bool flipped = false;
-  while (parent_[root] != root) {
-    flipped = flipped != flipped_[root];
-    root = parent_[root];
-  }
-  // Path compression: every node on the way now hangs directly on the root.
-  bool remaining = flipped;
-  while (parent_[face] != root && face != root) {
-    const Index next = parent_[face];
-    const bool step = flipped_[face];
-    parent_[face] = root;
-    flipped_[face] = remaining;
-    remaining = remaining != step;
-    face = next;
-  }
-  return {root, flipped};
-}
-
 bool IncrementalManifold::link_stays_simple(Index vertex, Index b, Index c) const {
   const auto& faces = faces_of_[vertex];
   // Walk the link from b: through the face that has b, on to its other corner, until the path ends.
@@ -112,19 +92,13 @@ IncrementalManifold::Verdict IncrementalManifold::check(const Triangle& triangle
 
 void IncrementalManifold::insert(const Triangle& triangle) {
   const Index face = static_cast<Index>(triangles_.size());
-  parent_.push_back(face);
-  flipped_.push_back(false);
+  pieces_.add();
   for (const auto& [i, j] : kEdges) {
     const Index a = triangle[i], b = triangle[j];
     auto& faces = edges_.try_emplace(edge_key(a, b), std::array<Index, 2>{-1, -1}).first->second;
     faces[faces[0] < 0 ? 0 : 1] = face;
     if (faces[1] < 0) continue;
-    const auto [piece, flipped] = piece_of(faces[0]);
-    const auto [own_piece, own_flipped] = piece_of(face);
-    if (piece == own_piece) continue;
-    parent_[own_piece] = piece;
-    const bool opposite = opposite_parity(triangles_[faces[0]], triangle, a, b);
-    flipped_[own_piece] = (flipped != own_flipped) != opposite;
+    pieces_.join(faces[0], face, opposite_parity(triangles_[faces[0]], triangle, a, b));
   }
   triangles_.push_back(triangle);
   for (Index vertex : triangle) faces_of_[vertex].push_back(face);

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "hdpea_cpp/signed_sets.hpp"
 #include "hdpea_cpp/types.hpp"
 
 namespace hdpea {
@@ -34,7 +35,7 @@ class IncrementalManifold {
   /// The faces at an edge: none, one or two; -1 where there is none.
   std::array<Index, 2> faces_at(Index a, Index b) const;
   /// The representative of a face's edge-connected piece, and whether the face is flipped against it.
-  std::pair<Index, bool> piece_of(Index face);
+  std::pair<Index, bool> piece_of(Index face) { return pieces_.find(face); }
   /// Whether two triangles that share the edge (a, b) must have opposite parities to agree in orientation.
   static bool opposite_parity(const Triangle& first, const Triangle& second, Index a, Index b);
 
@@ -45,8 +46,7 @@ class IncrementalManifold {
   std::vector<Triangle> triangles_;
   std::vector<std::vector<Index>> faces_of_;
   std::unordered_map<std::uint64_t, std::array<Index, 2>> edges_;  // looked up, never iterated
-  std::vector<Index> parent_;
-  std::vector<bool> flipped_;  // against the parent
+  SignedSets pieces_;                                              // of faces
 };
 
 }  // namespace hdpea

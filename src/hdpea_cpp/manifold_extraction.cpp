@@ -53,13 +53,13 @@ class Extractor {
   };
 
   Eigen::Vector3d position(Index i) const { return coordinates_.row(i).head<3>().transpose(); }
-  Eigen::Vector3d face_normal(const Triangle& t) const {
-    return (position(t[1]) - position(t[0])).cross(position(t[2]) - position(t[0])).normalized();
+  /// The normal of the ascending triangle, of twice its area's length.
+  Eigen::Vector3d area_vector(const Triangle& t) const {
+    return (position(t[1]) - position(t[0])).cross(position(t[2]) - position(t[0]));
   }
   /// Positive if the ascending triangle faces the way its points' normals do, times its area.
   double outwardness(const Triangle& t) const {
-    const Eigen::Vector3d area = (position(t[1]) - position(t[0])).cross(position(t[2]) - position(t[0]));
-    return (normals_.row(t[0]) + normals_.row(t[1]) + normals_.row(t[2])).dot(area.transpose());
+    return (normals_.row(t[0]) + normals_.row(t[1]) + normals_.row(t[2])).dot(area_vector(t).transpose());
   }
   bool agrees_with_points(const Triangle& triangle) const;
   bool folds_back(const Triangle& triangle) const;
@@ -77,20 +77,20 @@ class Extractor {
 };
 
 bool Extractor::agrees_with_points(const Triangle& triangle) const {
-  const Eigen::Vector3d normal = face_normal(triangle);
+  const Eigen::Vector3d normal = area_vector(triangle).normalized();
   double best = 0;  // at a crease a face lies in the plane of one of its points only
   for (Index i : triangle) best = std::max(best, std::abs(normals_.row(i).dot(normal.transpose())));
   return best >= least_normal_cosine_;
 }
 
 bool Extractor::folds_back(const Triangle& triangle) const {
-  const Eigen::Vector3d normal = face_normal(triangle);
+  const Eigen::Vector3d normal = area_vector(triangle).normalized();
   for (int i = 0; i < 3; ++i) {
     const Index a = triangle[i], b = triangle[(i + 1) % 3];
     const Index neighbor = mesh_.faces_at(a, b)[0];
     if (neighbor < 0) continue;
     const Triangle& other = mesh_.triangles()[neighbor];
-    const double cosine = normal.dot(face_normal(other));
+    const double cosine = normal.dot(area_vector(other).normalized());
     if ((IncrementalManifold::opposite_parity(triangle, other, a, b) ? -cosine : cosine) < least_fold_cosine_)
       return true;
   }

@@ -3,14 +3,14 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <numeric>
+#include <limits>
 #include <tuple>
 #include <vector>
 
 #include "hdpea_cpp/errors.hpp"
 #include "hdpea_cpp/parallel.hpp"
+#include "hdpea_cpp/signed_sets.hpp"
 
 namespace hdpea {
 namespace {
@@ -39,40 +39,6 @@ double carried_cosine(const PointsRef& points, const PointsRef& normals, Index i
   const Eigen::RowVector3d normal = normals.row(i);
   return (normal - 2 * normal.dot(edge) * edge).dot(normals.row(j));
 }
-
-/// Sets of points whose relative signs are known.
-class SignForest {
- public:
-  explicit SignForest(Index n) : parent_(static_cast<std::size_t>(n)), flipped_(static_cast<std::size_t>(n), 0) {
-    std::iota(parent_.begin(), parent_.end(), Index{0});
-  }
-
-  /// The set's representative, and whether the point's sign is opposite to its.
-  std::pair<Index, bool> find(Index i) {
-    if (parent_[i] == i) return {i, false};
-    std::vector<Index> path;
-    for (; parent_[i] != i; i = parent_[i]) path.push_back(i);
-    bool flipped = false;  // from the root back to the start, each now hangs on the root
-    for (auto step = path.rbegin(); step != path.rend(); ++step) {
-      flipped = flipped != (flipped_[*step] != 0);
-      flipped_[*step] = flipped;
-      parent_[*step] = i;
-    }
-    return {i, flipped};
-  }
-
-  void join(Index i, Index j, bool opposite) {
-    const auto [root_i, flipped_i] = find(i);
-    const auto [root_j, flipped_j] = find(j);
-    if (root_i == root_j) return;
-    parent_[root_j] = root_i;
-    flipped_[root_j] = (flipped_i != flipped_j) != opposite;
-  }
-
- private:
-  std::vector<Index> parent_;
-  std::vector<char> flipped_;
-};
 
 struct Edge {
   double cost;
@@ -141,13 +107,13 @@ Points orient_normals(const PointsRef& points, const PointsRef& normals, const N
     oriented.row(i).cwiseAbs().maxCoeff(&largest);
     if (oriented(i, largest) < 0) oriented.row(i) *= -1;
   }
-  SignForest forest(n);
+  SignedSets pieces(n);
   for (const Edge& edge : sorted_edges(points, oriented, neighbors)) {
-    forest.join(edge.i, edge.j, carried_cosine(points, oriented, edge.i, edge.j) < 0);
+    pieces.join(edge.i, edge.j, carried_cosine(points, oriented, edge.i, edge.j) < 0);
   }
   std::vector<Index> piece(static_cast<std::size_t>(n));
   for (Index i = 0; i < n; ++i) {
-    const auto [root, flipped] = forest.find(i);
+    const auto [root, flipped] = pieces.find(i);
     piece[i] = root;
     if (flipped) oriented.row(i) *= -1;
   }
