@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hdpea import _core
+from hdpea.cells import restricted_cells
 from hdpea.errors import CannotReconstruct, core_errors_translated
 from hdpea.frame import UnitFrame
 from hdpea.options import MeshingOptions
@@ -69,7 +70,7 @@ def extract_mesh(
     options = options or MeshingOptions()
     with core_errors_translated():
         normals = np.ascontiguousarray(surface.normals[particles.nearest])
-        candidates, radius = voronoi_candidates(particles, bases)
+        candidates, radius = restricted_cells(particles.coordinates, bases[particles.nearest], DISK_RADIUS)
         why = f"{DISK_RADIUS:g} mean distances of the vertices in the embedding"
         disks = Choice("disk_radius", radius * surface.frame.diagonal, "world units under the metric", why)
         limits = _core.ExtractionOptions()
@@ -83,15 +84,6 @@ def extract_mesh(
         vertices = np.ascontiguousarray(particles.coordinates[extracted.sources, :3])
         mesh = _fill_holes(vertices, extracted, surface.frame, options)
         return replace(mesh, choices=(disks, *mesh.choices))
-
-
-def voronoi_candidates(particles: Particles, bases: NDArray[np.float64]) -> tuple[_core.Candidates, float]:
-    """Return the triangles dual to the particles' restricted Voronoi cells, and the disks' radius in R^d."""
-    x = particles.coordinates
-    neighbors = _core.nearest_neighbors(x, 40)
-    radius = DISK_RADIUS * float(np.linalg.norm(x[neighbors[:, 0]] - x, axis=1).mean())
-    flat_bases = bases[particles.nearest].reshape(len(x), -1)
-    return _core.restricted_voronoi_candidates(x, flat_bases, neighbors, np.full(len(x), radius)), radius
 
 
 def _fill_holes(

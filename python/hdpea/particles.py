@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hdpea import _core
+from hdpea.cells import restricted_cells
 from hdpea.errors import core_errors_translated
 from hdpea.options import ParticleOptions
 
@@ -19,6 +20,9 @@ if TYPE_CHECKING:
 
 KERNEL_WIDTH = 0.32
 """sigma in units of sqrt(area / particles) (paper, section B)."""
+
+AREA_DISK_RADIUS = 2.0
+"""Radius of the disks that measure the area, in mean distances of the seeds: large enough to hold their cells."""
 
 INTERACTIONS = 16
 """Particles that push each particle; the kernel is negligible beyond."""
@@ -122,7 +126,8 @@ def spread_particles(
     options = options or ParticleOptions()
     with core_errors_translated():
         seeds = _core.farthest_point_sampling(coordinates, count, options.seed % len(coordinates))
-        squared_width = KERNEL_WIDTH**2 * _surface_area(coordinates[seeds], bases[seeds]) / count
+        cells, _ = restricted_cells(coordinates[seeds], bases[seeds], AREA_DISK_RADIUS)
+        squared_width = KERNEL_WIDTH**2 * float(cells.cell_areas.sum()) / count
         cloud = _Cloud(coordinates, bases, neighbors)
         nearest = torch.from_numpy(seeds)  # (m,)
         x = cloud.points[nearest]  # (m, d)
@@ -148,12 +153,3 @@ def _median_length(vectors: torch.Tensor) -> torch.Tensor:
     lengths = vectors.norm(dim=2)  # (n, k)
     median: torch.Tensor = lengths.where(lengths > 0, float("nan")).nanmedian(dim=1).values
     return median.nan_to_num(1e-300)
-
-
-def _surface_area(seeds: NDArray[np.float64], bases: NDArray[np.float64]) -> float:
-    """Return the area of the seeds' restricted Voronoi cells (m, d), with disks large enough to hold them."""
-    neighbors = _core.nearest_neighbors(seeds, 40)
-    spacing = np.linalg.norm(seeds[neighbors[:, 0]] - seeds, axis=1).mean()
-    flat_bases = bases.reshape(len(seeds), -1)
-    radii = np.full(len(seeds), 2 * spacing)
-    return float(_core.restricted_voronoi_candidates(seeds, flat_bases, neighbors, radii).cell_areas.sum())
