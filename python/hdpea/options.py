@@ -33,14 +33,16 @@ def _check(field: Field[Any], value: Any) -> None:
 
 
 @dataclass(frozen=True)
-class _Checked:
+class Checked:
+    """Base of the options: checks every value against its field's choices and minimum."""
+
     def __post_init__(self) -> None:
         for each in fields(self):
             _check(each, getattr(self, each.name))
 
 
 @dataclass(frozen=True)
-class NormalOptions(_Checked):
+class NormalOptions(Checked):
     """How normals are had (``hdpea.normals``)."""
 
     normals: str = option(
@@ -56,7 +58,7 @@ class NormalOptions(_Checked):
 
 
 @dataclass(frozen=True)
-class EmbeddingOptions(_Checked):
+class EmbeddingOptions(Checked):
     """How the cloud is embedded in R^8 (``hdpea.embedding``)."""
 
     embedding: str = option("direct", "direct: solved for on this cloud, no training", choices=("direct",))
@@ -71,7 +73,7 @@ class EmbeddingOptions(_Checked):
 
 
 @dataclass(frozen=True)
-class ParticleOptions(_Checked):
+class ParticleOptions(Checked):
     """How the vertices are spread (``hdpea.particles``)."""
 
     iterations: int = option(100, "steps of the particles' energy descent", minimum=0)
@@ -79,7 +81,7 @@ class ParticleOptions(_Checked):
 
 
 @dataclass(frozen=True)
-class MeshingOptions(_Checked):
+class MeshingOptions(Checked):
     """How the particles become a mesh (``hdpea.meshing``)."""
 
     vertices: int | None = option(
@@ -105,7 +107,7 @@ class MeshingOptions(_Checked):
 
 
 @dataclass(frozen=True)
-class RefinementOptions(_Checked):
+class RefinementOptions(Checked):
     """How the mesh is fitted to the points afterwards (``hdpea.refinement``)."""
 
     refine: bool = option(True, "fit the vertices to the points by least squares")
@@ -113,7 +115,7 @@ class RefinementOptions(_Checked):
 
 
 @dataclass(frozen=True)
-class Options(_Checked):
+class Options(Checked):
     """Everything ``hdpea.reconstruct`` can be told."""
 
     normals: NormalOptions = NormalOptions()

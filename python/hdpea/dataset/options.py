@@ -1,0 +1,19 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The defaults of the ground truth: one dataclass per stage, as in ``hdpea.options``."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from hdpea.options import Checked, option
+
+
+@dataclass(frozen=True)
+class GroundTruthOptions(Checked):
+    """How the true embedding of a mesh is made; lengths are shares of its bounding-box diagonal."""
+
+    remesh_length: float = option(0.0075, "edge length of the triangles the embedding is solved on", minimum=0)
+    curvature_radius: float = option(0.01, "radius in which curvature is measured", minimum=0)
+    bending_length: float = option(0.006, "length below which the embedding does not bend", minimum=0)
+    metric_scale: float = option(0.5, "c of the metric s^2 = c |k|: larger stretches more", minimum=0)
+    max_stretch: float = option(8.0, "largest stretch of the metric in any direction", minimum=1)
