@@ -17,3 +17,14 @@ class GroundTruthOptions(Checked):
     bending_length: float = option(0.006, "length below which the embedding does not bend", minimum=0)
     metric_scale: float = option(0.5, "c of the metric s^2 = c |k|: larger stretches more", minimum=0)
     max_stretch: float = option(8.0, "largest stretch of the metric in any direction", minimum=1)
+
+
+@dataclass(frozen=True)
+class SamplingOptions(Checked):
+    """How points are drawn of a mesh."""
+
+    points: int = option(40_000, "points to draw", minimum=1)
+    method: str = option(
+        "area", "area: uniform by area; farthest: each far from the others", choices=("area", "farthest")
+    )
+    seed: int = option(0, "seed of everything random; the same seed gives the same points", minimum=0)
