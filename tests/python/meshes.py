@@ -15,6 +15,9 @@ from hdpea.frame import UnitFrame
 Mesh = tuple[NDArray[np.float64], NDArray[np.int64]]
 """Vertices (v, 3) and faces (f, 3)."""
 
+TORUS_DIAGONAL = (2 * 2.8**2 + 0.8**2) ** 0.5
+"""Of the box around the torus before it was moved into its unit frame, when its radii were 1 and 0.4."""
+
 
 def sphere() -> Mesh:
     return _in_unit_frame(trimesh.creation.icosphere(subdivisions=3))

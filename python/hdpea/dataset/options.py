@@ -28,3 +28,23 @@ class SamplingOptions(Checked):
         "area", "area: uniform by area; farthest: each far from the others", choices=("area", "farthest")
     )
     seed: int = option(0, "seed of everything random; the same seed gives the same points", minimum=0)
+
+
+@dataclass(frozen=True)
+class ScanOptions(Checked):
+    """How a mesh is scanned by a simulated range sensor; lengths are shares of its bounding-box diagonal."""
+
+    points: int = option(40_000, "points to return", minimum=1)
+    kind: str = option(
+        "views",
+        "views: a depth camera all around; turntable: a sensor above the horizon, the model turning about z",
+        choices=("views", "turntable"),
+    )
+    views: int = option(12, "places from where the sensor looks", minimum=1)
+    coverage: float = option(1.0, "share of all directions (turntable: of a turn) seen from", minimum=0.01, maximum=1)
+    distance: float = option(1.5, "from the sensor to the middle of the model", minimum=0.6)
+    noise: float = option(0.0005, "std of the range of a surface that faces the sensor, at that distance", minimum=0)
+    grazing: float = option(
+        75.0, "degrees between ray and normal beyond which fewer and fewer rays return", minimum=0, maximum=90
+    )
+    seed: int = option(0, "seed of everything random; the same seed gives the same points", minimum=0)
