@@ -17,7 +17,8 @@ from hdpea.dataset.folder import open_folder
 from hdpea.dataset.isolation import Outcome, run_isolated
 from hdpea.dataset.making import make_sample
 from hdpea.dataset.manifest import Manifest, MeshEntry, SampleEntry, write_manifest
-from hdpea.dataset.options import DatasetOptions, manifest_options
+from hdpea.dataset.options import DatasetOptions
+from hdpea.dataset.recorded_options import recorded_options
 from hdpea.dataset.sample_file import encoded
 from hdpea.dataset.sources import MeshSource, find_meshes
 from hdpea.dataset.surface_file import read_surface
@@ -90,7 +91,7 @@ def build_dataset(
     """
     started, options = time.perf_counter(), options or DatasetOptions()
     sources = find_meshes(where)
-    manifest = Manifest(version(), manifest_options(options))
+    manifest = Manifest(version(), recorded_options(options))
     finished = open_folder(folder, manifest, sources)
     done = dict(finished)
     for name in done:

@@ -3,13 +3,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
 
-from hdpea.errors import UnreadableInput
 from hdpea.options import Checked, option
-from hdpea.settings import RUN, as_dict, filled, settings
 
 
 @dataclass(frozen=True)
@@ -25,18 +21,33 @@ class GroundTruthOptions(Checked):
 
 @dataclass(frozen=True)
 class SamplingOptions(Checked):
-    """How points are drawn from a surface."""
+    """How points are drawn of a mesh."""
 
-    points: int = option(40_000, "points of a sample", minimum=1)
-    method: str = option("area", "area or farthest", choices=("area", "farthest"))
-    seed: int = option(0, "seed of everything random; the same seed gives the same bytes", minimum=0)
+    points: int = option(40_000, "points to draw", minimum=1)
+    method: str = option(
+        "area", "area: uniform by area; farthest: each far from the others", choices=("area", "farthest")
+    )
+    seed: int = option(0, "seed of everything random; the same seed gives the same points", minimum=0)
 
 
 @dataclass(frozen=True)
 class ScanOptions(Checked):
-    """How a surface is scanned."""
+    """How a mesh is scanned by a simulated range sensor; lengths are shares of its bounding-box diagonal."""
 
-    seed: int = option(0, "seed of everything random; the same seed gives the same bytes", minimum=0)
+    points: int = option(40_000, "points to return", minimum=1)
+    kind: str = option(
+        "views",
+        "views: a depth camera all around; turntable: a sensor above the horizon, the model turning about z",
+        choices=("views", "turntable"),
+    )
+    views: int = option(12, "places from where the sensor looks", minimum=1)
+    coverage: float = option(1.0, "share of all directions (turntable: of a turn) seen from", minimum=0.01, maximum=1)
+    distance: float = option(1.5, "from the sensor to the middle of the model", minimum=0.6)
+    noise: float = option(0.0005, "std of the range of a surface that faces the sensor, at that distance", minimum=0)
+    grazing: float = option(
+        75.0, "degrees between ray and normal beyond which fewer and fewer rays return", minimum=0, maximum=90
+    )
+    seed: int = option(0, "seed of everything random; the same seed gives the same points", minimum=0)
 
 
 @dataclass(frozen=True)
@@ -62,26 +73,3 @@ class DatasetOptions(Checked):
     ground_truth: GroundTruthOptions = GroundTruthOptions()
     jobs: int = option(0, "meshes at a time, which share the cores; 0: one for each core", minimum=0)
     time_limit: float = option(3600, "seconds after which a mesh is given up and skipped", minimum=0)
-
-
-def manifest_options(options: DatasetOptions) -> dict[str, dict[str, Any]]:
-    """Return all that the bytes of a dataset depend on, by stage and name; fit for JSON."""
-    listed = as_dict(options)
-    # How the work was shared out changes nothing; the method is the kind of the sample.
-    del listed[RUN], listed["sampling"]["method"]
-    return listed
-
-
-def options_of_manifest(listed: Mapping[str, Mapping[str, Any]], **run: Any) -> DatasetOptions:
-    """Return the options that ``manifest_options`` listed, and those of this run.
-
-    Raises
-    ------
-    UnreadableInput
-        If they are not the options of this version of hdpea.
-    """
-    values = {name: value for stage in listed.values() for name, value in stage.items()}
-    unknown = set(values) - {each.name for each in settings(DatasetOptions)}
-    if unknown:
-        raise UnreadableInput(f"The manifest has an unknown option {min(unknown)!r}.", "Use the hdpea it names.")
-    return filled(DatasetOptions, {**values, **run})
