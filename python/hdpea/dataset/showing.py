@@ -58,7 +58,7 @@ def draw_sample(path: Path, sample: Sample, options: GroundTruthOptions | None =
         off_screen=True, shape=(1, len(panels)), window_size=[PANEL[0] * len(panels), PANEL[1]], border=False
     )
     plotter.background_color = pyvista.Color("white")
-    size = _point_size(np.count_nonzero(facing))
+    size = _point_size(int(facing.sum()))
     for column, colors in enumerate(panels):
         plotter.subplot(0, column)
         # Points hide nothing behind them: those of the far side are left out.
