@@ -116,6 +116,7 @@ def test_no_samples_and_no_datasets_are_told(tmp_path: Path, failed: Failed) -> 
     assert "extension" in failed(2, "dataset", "show", tmp_path / "sample.npz", tmp_path / "sample.gif")
     assert "no file or folder" in failed(3, *build(tmp_path / "absent", tmp_path / "out"))
     assert "kind" in failed(2, *build(tmp_path, tmp_path / "out", "--kind", "cubes"))
+    assert "not a number such as" in failed(2, *build(tmp_path, tmp_path / "out", "--noise", "loud"))
 
 
 @pytest.mark.slow
@@ -136,7 +137,7 @@ def test_a_sample_is_drawn(tmp_path: Path) -> None:
 def test_a_manifest_records_what_was_asked_for(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr("hdpea.dataset.building.make_samples", dataset_standins.make_samples)
     meshes = write_meshes(tmp_path / "meshes", "a")
-    flags = ["--points", "60", "--kind", "scan", "--views", "3", "--remesh-length", "0.02", "--estimate", "--augmented"]
+    flags = ["--points", "60", "--kind", "scan", "--views", "3", "--remesh-length", "2%", "--estimate", "--augmented"]
     assert run(build(meshes, tmp_path / "out", *flags, "--quiet")) == 0
     options = read_manifest(tmp_path / "out").options
     assert options["sample"] == {"kind": "scan", "estimate": True, "augmented": True}
