@@ -70,7 +70,7 @@ def with_missing(sample: Sample, count: int, radius: float, rng: np.random.Gener
 
 
 def thinned(sample: Sample, density: str, rng: np.random.Generator) -> Sample:
-    """Return points of uneven density along the longest axis, after PCPNet (Guerrero et al., 2018); how strongly is ours.
+    """Return points unevenly dense along the longest axis, after PCPNet (Guerrero et al., 2018); its strength is ours.
 
     ``gradient``: the share that stays falls linearly from 1 at one end to ``SPARSE`` at the other. ``striped``: it is
     1 and ``SPARSE`` in turn, in stripes of the same width.

@@ -28,14 +28,14 @@ def sensor_positions(options: ScanOptions, rng: np.random.Generator) -> NDArray[
     ``views``: a Fibonacci spiral on the sphere, or on a cap of it around a random direction if the coverage is less
     than 1. ``turntable``: one after the other at each of the elevations while the model turns, from a random angle on.
     """
-    each = np.arange(options.views, dtype=np.float64)
+    each = np.arange(options.views)
     if options.kind == "turntable":
         azimuth = TAU * (options.coverage * each / options.views + rng.random())
         elevation = np.resize(ELEVATIONS, options.views)
         directions = _on_sphere(azimuth, np.sin(elevation))
     else:
         height: NDArray[np.float64] = 1 - 2 * options.coverage * (each + 0.5) / options.views
-        directions = _on_sphere(GOLDEN_ANGLE * each, height) @ random_rotation(rng).T
+        directions = _on_sphere(GOLDEN_ANGLE * each.astype(np.float64), height) @ random_rotation(rng).T
     directions += JITTER * rng.standard_normal(directions.shape)
     return options.distance * _unit(directions)
 
