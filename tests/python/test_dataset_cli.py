@@ -15,7 +15,7 @@ from samples import sphere_sample
 
 from hdpea.cli import run
 from hdpea.dataset.manifest import read_manifest
-from hdpea.dataset.sample_file import write_sample
+from hdpea.dataset.sample_file import read_sample, write_sample
 from hdpea.frame import UnitFrame
 from hdpea.reading import read_points
 
@@ -106,6 +106,20 @@ def test_what_cannot_be_scanned_is_told(tmp_path: Path, failed: Failed) -> None:
     assert "extension" in failed(2, "dataset", "scan", tmp_path / "open.ply", tmp_path / "scan.obj")
     assert "both input and output" in failed(2, "dataset", "scan", tmp_path / "open.ply", tmp_path / "open.ply")
     assert not (tmp_path / "scan.ply").exists()
+
+
+def test_a_sample_is_made_worse(tmp_path: Path, failed: Failed) -> None:
+    write_sample(tmp_path / "sample.npz", sphere_sample(count=2000, scanned=True))
+    degrade = ["dataset", "degrade", str(tmp_path / "sample.npz")]
+    assert run([*degrade, str(tmp_path / "noisy.npz"), "--noise", "0.3%", "--missing", "1"]) == 0
+    noisy = read_sample(tmp_path / "noisy.npz")
+    assert 1000 < len(noisy.points) < 2000
+    assert np.std(noisy.points - noisy.surface_points) == pytest.approx(0.003, rel=0.1)
+    assert noisy.estimated_normals is not None
+    assert np.median(np.einsum("nc,nc->n", noisy.estimated_normals, noisy.normals)) > 0.9
+    assert "both input and output" in failed(2, *degrade, tmp_path / "sample.npz")
+    assert "extension" in failed(2, *degrade, tmp_path / "noisy.ply")
+    assert "outliers is at most 1" in failed(2, *degrade, tmp_path / "noisy.npz", "--outliers", "2")
 
 
 def test_no_samples_and_no_datasets_are_told(tmp_path: Path, failed: Failed) -> None:

@@ -38,7 +38,7 @@ def make_sample(
     # Points first: what goes wrong with them should not take the minute that the truth takes.
     tell(progress, "points", 0.0)
     points, surface_points, normals, sensors = _points_of(frame.to_unit(vertices_in_world), faces, options, seed)
-    estimated = estimated_normals(points).astype(np.float32) if options.sample.estimate else None
+    estimated = estimated_normals(points) if options.sample.estimate else None
     truth = embed_mesh(vertices_in_world, faces, options.ground_truth, progress).at(surface_points)
     return Sample(
         points=points.astype(np.float32),
