@@ -155,6 +155,5 @@ def test_a_manifest_records_what_was_asked_for(tmp_path: Path, monkeypatch: pyte
     assert run(build(meshes, tmp_path / "out", *flags, "--quiet")) == 0
     options = read_manifest(tmp_path / "out").options
     assert options["sample"] == {"kind": "scan", "estimate": True, "augmented": True}
-    assert options["sampling"]["points"] == options["scanning"]["points"] == 60
-    assert options["scanning"]["views"] == 3
+    assert (options["scanning"]["points"], options["scanning"]["views"]) == (60, 3)
     assert options["ground_truth"]["remesh_length"] == 0.02

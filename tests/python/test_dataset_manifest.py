@@ -41,8 +41,20 @@ def test_every_schema_ever_written_is_read(schema: int) -> None:
 
 def test_options_are_recorded_there_and_back() -> None:
     options = filled(DatasetOptions, {"kind": "scan", "points": 7, "remesh_length": 0.02, "jobs": 3})
-    assert options_recorded(recorded_options(options), jobs=3) == options
+    again = options_recorded(recorded_options(options), jobs=3)
+    assert (again.sample, again.scanning, again.ground_truth, again.jobs) == (
+        options.sample,
+        options.scanning,
+        options.ground_truth,
+        3,
+    )
     assert json.loads(json.dumps(recorded_options(options))) == recorded_options(options)
+
+
+def test_options_that_do_nothing_are_not_recorded() -> None:
+    scans, samples = (recorded_options(filled(DatasetOptions, {"kind": kind})) for kind in ("scan", "farthest"))
+    assert "sampling" not in scans
+    assert "scanning" not in samples
 
 
 @pytest.mark.parametrize("stage", [{"sampling": {"speed": 1}}, {"cooking": {"heat": 1}}])

@@ -93,3 +93,14 @@ class DatasetOptions(Checked):
     ground_truth: GroundTruthOptions = GroundTruthOptions()
     jobs: int = option(0, "meshes at a time, which share the cores; 0: one for each core", minimum=0)
     time_limit: float = option(3600, "seconds after which a mesh is given up and skipped", minimum=0)
+
+    @property
+    def source_of_points(self) -> str:
+        """The stage that the points come from; the other one does nothing."""
+        return "scanning" if self.sample.kind == "scan" else "sampling"
+
+    @property
+    def seed(self) -> int:
+        """The seed of that stage."""
+        seed: int = getattr(self, self.source_of_points).seed
+        return seed
