@@ -31,6 +31,26 @@ class SamplingOptions(Checked):
 
 
 @dataclass(frozen=True)
+class DegradationOptions(Checked):
+    """How a sample is made worse; 0 leaves it alone. Lengths are shares of the bounding-box diagonal."""
+
+    clipped: bool = option(False, "keep only one side of a plane through the middle of the points")
+    missing: int = option(0, "balls to cut out, around points of the surface", minimum=0)
+    missing_radius: float = option(0.05, "radius of these balls", minimum=0)
+    density: str = option(
+        "even",
+        "gradient: thinned out along the longest axis; striped: in stripes across it; fewer points remain",
+        choices=("even", "gradient", "striped"),
+    )
+    noise: float = option(
+        0.0, "std of Gaussian noise on each coordinate of the points (paper: 0.001 to 0.005)", minimum=0
+    )
+    outliers: float = option(0.0, "share of the points that are moved to anywhere", minimum=0, maximum=1)
+    normal_noise: float = option(0.0, "std of Gaussian noise on the normals (paper: 0.001, 0.002)", minimum=0)
+    seed: int = option(0, "seed of everything random; the same seed gives the same points", minimum=0)
+
+
+@dataclass(frozen=True)
 class ScanOptions(Checked):
     """How a mesh is scanned by a simulated range sensor; lengths are shares of its bounding-box diagonal."""
 
