@@ -129,7 +129,7 @@ def _mesh_of(surface: Surface, report: Report, progress: ProgressCallback | None
         report.choices.append(Choice("vertices", vertices, "", f"one for every {POINTS_PER_VERTEX} points"))
     with report.clock.stage("embedding"):
         embedded = embed_surface(surface, vertices, options.embedding, progress)
-        bases = tangent_bases(embedded.coordinates, surface.neighbors, points / vertices)
+        bases = tangent_bases(embedded.coordinates, surface.normals, surface.neighbors, points / vertices)
     count = vertices
     for _ in range(ATTEMPTS):
         with report.clock.stage("particles"):
