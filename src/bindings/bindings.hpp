@@ -26,3 +26,4 @@ void register_refinement(nb::module_& module);
 void register_restricted_voronoi(nb::module_& module);
 void register_sheets(nb::module_& module);
 void register_surface_distance(nb::module_& module);
+void register_wnnc(nb::module_& module);

@@ -16,4 +16,5 @@ NB_MODULE(_core, module) {
   register_restricted_voronoi(module);
   register_sheets(module);
   register_surface_distance(module);
+  register_wnnc(module);
 }

@@ -10,28 +10,6 @@
 namespace hdpea {
 namespace {
 
-/// The six faces of the unit cube, each sampled like a plane, with outward normals.
-clouds::Cloud cube(Index per_face) {
-  clouds::Cloud cube{Points(0, 3), Points(0, 3)};
-  for (int axis = 0; axis < 3; ++axis) {
-    for (double side : {0.0, 1.0}) {
-      const auto square = clouds::plane(per_face, side);
-      clouds::Cloud face{Points(per_face, 3), Points::Zero(per_face, 3)};
-      for (int column = 0; column < 3; ++column) face.points.col((axis + 1 + column) % 3) = square.points.col(column);
-      face.normals.col(axis).setConstant(2 * side - 1);
-      cube = clouds::joined(cube, face);
-    }
-  }
-  return cube;
-}
-
-clouds::Cloud thin_plate() {
-  // 2,500 points in a unit square have a spacing of 0.02; the plate is three spacings thick and has a rim.
-  auto plate = cube(2500);
-  plate.points.col(2) *= 0.06;
-  return plate;
-}
-
 Points with_random_signs(Points normals) {
   for (Index i = 0; i < normals.rows(); ++i) {
     if (clouds::weyl(i * i).x() < 0.5) normals.row(i) *= -1;
@@ -61,7 +39,8 @@ TEST_P(Orientation, IsSeenToBeConsistentOrNot) {
   EXPECT_NEAR(orientation_consistency(points, with_random_signs(normals), neighbors), 0.5, 0.1);
 }
 
-INSTANTIATE_TEST_SUITE_P(Shapes, Orientation, testing::Values(clouds::sphere(2000), cube(900), thin_plate()));
+INSTANTIATE_TEST_SUITE_P(Shapes, Orientation,
+                         testing::Values(clouds::sphere(2000), clouds::cube(900), clouds::thin_plate()));
 
 TEST(Normals, OfASphereAreEstimatedWell) {
   const auto sphere = clouds::sphere(4000);
@@ -76,7 +55,7 @@ TEST(Normals, OfAPlaneAreExact) {
 }
 
 TEST(Normals, AwayFromItsEdgesACubeHasThoseOfItsFaces) {
-  const auto box = cube(900);
+  const auto box = clouds::cube(900);
   const Points normals = estimate_normals(box.points, nearest_neighbors(box.points, 16));
   for (Index i = 0; i < normals.rows(); ++i) {
     const Eigen::RowVector3d from_middle = (box.points.row(i).array() - 0.5).abs();
