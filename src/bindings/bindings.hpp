@@ -20,6 +20,7 @@ void register_mesh_check(nb::module_& module);
 void register_neighbors(nb::module_& module);
 void register_embedding(nb::module_& module);
 void register_manifold_extraction(nb::module_& module);
+void register_normal_orientation(nb::module_& module);
 void register_normals(nb::module_& module);
 void register_parallel(nb::module_& module);
 void register_refinement(nb::module_& module);
