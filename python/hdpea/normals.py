@@ -12,21 +12,10 @@ from hdpea import _core
 from hdpea.errors import UnreadableInput, core_errors_translated
 from hdpea.frame import UnitFrame
 from hdpea.options import NormalOptions
-from hdpea.orientation import (
-    LEAST_AGREEMENT,
-    Vectors,
-    by_file,
-    by_spanning_tree,
-    by_winding_number,
-    require_signs,
-    turned,
-)
+from hdpea.orientation import Unoriented, Vectors, orient, require_signs
 from hdpea.progress import ProgressCallback, of_phase, tell
 from hdpea.report import Choice
 from hdpea.surface import NEIGHBORS, Surface, require_surface
-
-TRUSTED_CONSISTENCY = 0.9
-"""Share of neighbours in agreement from which the file's orientation is taken as it is; random signs have 0.5."""
 
 ORIENTATION_NEIGHBORS = 16
 """Nearest points to which a point hands on its orientation, and fewest that an estimated normal is fitted to."""
@@ -109,29 +98,17 @@ def oriented_surface(
         nearest = np.ascontiguousarray(neighbors[:, :ORIENTATION_NEIGHBORS])
         directions, choices = _directions(points, given, usable, neighbors, options, points_per_vertex)
         # Where normals are to be estimated whatever is given, what is given has no say unless it is asked for.
-        has_say = given if options.orient == "file" else np.where(usable[:, None], given, 0)
-        consistency = _core.orientation_consistency(points, has_say, nearest) if has_say.any() else None
-        way = options.orient
-        if way == "auto" and consistency is not None and consistency >= TRUSTED_CONSISTENCY:
-            way = "file"
-            choices += (Choice("orient", way, "", f"{consistency:.0%} of neighbours agree on the side"),)
-        if way == "file":
-            oriented = by_file(points, directions, has_say, nearest)
-        elif way == "viewpoint":
-            seen_from = options.viewpoint.as_array() if options.viewpoint else np.asarray(sensors_in_world)
-            oriented = turned(directions, frame.to_unit(seen_from) - points)
-        elif way == "mst":
-            oriented = by_spanning_tree(points, directions, nearest)
-        else:
-            oriented, agreement = by_winding_number(points, directions, ~usable, nearest, of_phase(progress, "normals"))
-            if way == "auto":
-                way = "wnnc" if agreement >= LEAST_AGREEMENT else "mst"
-                why = f"{agreement:.0%} of the directions agree with the winding number's"
-                choices += (Choice("orient", way, "", why),)
-                oriented = oriented if way == "wnnc" else by_spanning_tree(points, directions, nearest)
+        heard = given if options.orient == "file" else np.where(usable[:, None], given, 0)
+        cloud = Unoriented(points, directions, ~usable, heard, nearest)
+        seen_from = sensors_in_world if options.viewpoint is None else options.viewpoint.as_array()
+        towards = None if seen_from is None else frame.to_unit(seen_from)
+        orientation = orient(cloud, options.orient, towards, of_phase(progress, "normals"))
+        if options.orient == "auto":
+            choices += (Choice("orient", orientation.way, "", orientation.why),)
+        consistency = cloud.consistency()
     tell(progress, "normals", 1)
-    surface = Surface.of(frame, points, oriented, neighbors)
-    return OrientedSurface(surface, int((~usable).sum()), consistency, way != "file", choices)
+    surface = Surface.of(frame, points, orientation.normals, neighbors)
+    return OrientedSurface(surface, int((~usable).sum()), consistency, orientation.way != "file", choices)
 
 
 def _directions(

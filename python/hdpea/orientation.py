@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,12 +15,53 @@ from hdpea.options import NormalOptions
 
 Vectors = NDArray[np.float64]
 
+TRUSTED_CONSISTENCY = 0.9
+"""Share of neighbours in agreement from which the file's orientation is taken as it is; random signs have 0.5."""
+
 AGREEING_COSINE = 0.5
 """Least |cosine| with the winding number's normal at which a direction is taken for the same normal: 60 degrees."""
 
 LEAST_AGREEMENT = 0.8
-"""Share of directions so near to the winding number's, below which that says nothing: 0.9 and more on what has an
-inside, 0.3 where it has not, as on a plane."""
+"""Share of directions so near to the winding number's, below which that says nothing: what has an inside has 0.9 and
+more, a plane next to none."""
+
+
+@dataclass(frozen=True)
+class Unoriented:
+    """Points, and normals whose signs mean nothing yet.
+
+    Attributes
+    ----------
+    points, directions
+        (n, 3) float64; the directions of length 1.
+    estimated
+        (n,) bool: which directions are estimates, not given.
+    given
+        (n, 3) float64: normals whose signs may be heard, of length 1, or 0 where there is none.
+    neighbors
+        (n, k) int64: nearest other points, -1 pads.
+    """
+
+    points: Vectors
+    directions: Vectors
+    estimated: NDArray[np.bool_]
+    given: Vectors
+    neighbors: NDArray[np.int64]
+
+    def consistency(self) -> float | None:
+        """Return the share of neighbours whose given normals agree on the side; None if none is given."""
+        if not self.given.any():
+            return None
+        return _core.orientation_consistency(self.points, self.given, self.neighbors)
+
+
+@dataclass(frozen=True)
+class Orientation:
+    """Oriented unit normals (n, 3); the way they were oriented, one of ``NormalOptions.orient``; and why so."""
+
+    normals: Vectors
+    way: str
+    why: str = ""
 
 
 def require_signs(given: Vectors, sensors: Vectors | None, options: NormalOptions) -> None:
@@ -44,44 +86,67 @@ def require_signs(given: Vectors, sensors: Vectors | None, options: NormalOption
             raise UnreadableInput("Not every point's sensor position is finite.", "Give one --viewpoint X,Y,Z.")
 
 
-def by_file(points: Vectors, directions: Vectors, given: Vectors, neighbors: NDArray[np.int64]) -> Vectors:
-    """Turn directions (n, 3) as the `given` normals have it, and where these are 0, as the nearest other has it."""
-    signed = turned(directions, given)
-    usable = np.asarray(given.any(axis=1))
+def orient(
+    cloud: Unoriented, way: str, seen_from: Vectors | None = None, progress: Callable[[float], bool] | None = None
+) -> Orientation:
+    """Give normals their signs, in the given way of ``NormalOptions.orient``.
+
+    Parameters
+    ----------
+    seen_from
+        (n, 3) or (3,), the sensor of each point or of all; needed for the way ``viewpoint``.
+    """
+    if way == "auto":
+        return _orient_as_fits(cloud, progress)
+    if way == "wnnc":
+        return Orientation(by_winding_number(cloud, progress)[0], way)
+    if way == "viewpoint" and seen_from is not None:
+        return Orientation(turned(cloud.directions, seen_from - cloud.points), way)
+    return Orientation(by_file(cloud) if way == "file" else by_spanning_tree(cloud), way)
+
+
+def _orient_as_fits(cloud: Unoriented, progress: Callable[[float], bool] | None) -> Orientation:
+    consistency = cloud.consistency()
+    if consistency is not None and consistency >= TRUSTED_CONSISTENCY:
+        return Orientation(by_file(cloud), "file", f"{consistency:.0%} of neighbours agree on the side")
+    normals, agreement = by_winding_number(cloud, progress)
+    why = f"{agreement:.0%} of the directions agree with the winding number's"
+    if agreement < LEAST_AGREEMENT:
+        return Orientation(by_spanning_tree(cloud), "mst", f"only {why}")
+    return Orientation(normals, "wnnc", why)
+
+
+def by_file(cloud: Unoriented) -> Vectors:
+    """Turn the directions as the given normals have it, and where there is none, as the nearest other has it."""
+    signed = turned(cloud.directions, cloud.given)
+    usable = np.asarray(cloud.given.any(axis=1))
     if usable.all():
         return signed
-    oriented = by_spanning_tree(points, directions, neighbors)
+    oriented = by_spanning_tree(cloud)
     kept = cosines(oriented, signed)[usable] >= 0
-    nearest_usable = _core.nearest_neighbors(points[usable], points[~usable], 1)[:, 0]
+    nearest_usable = _core.nearest_neighbors(cloud.points[usable], cloud.points[~usable], 1)[:, 0]
     signed[~usable] = np.where(kept[nearest_usable], 1, -1)[:, None] * oriented[~usable]
     return signed
 
 
-def by_spanning_tree(points: Vectors, directions: Vectors, neighbors: NDArray[np.int64]) -> Vectors:
+def by_spanning_tree(cloud: Unoriented) -> Vectors:
     """Hand on the side from neighbour to neighbour, the surest first."""
-    return _core.orient_normals(points, directions, neighbors)
+    return _core.orient_normals(cloud.points, cloud.directions, cloud.neighbors)
 
 
-def by_winding_number(
-    points: Vectors,
-    directions: Vectors,
-    estimated: NDArray[np.bool_],
-    neighbors: NDArray[np.int64],
-    progress: Callable[[float], bool] | None = None,
-) -> tuple[Vectors, float]:
-    """Turn directions (n, 3) as the winding number has it; those `estimated` far off it are replaced by its own.
-
-    Where the cloud has large holes, the winding number may be wrong about the half of a face: so faces vote.
+def by_winding_number(cloud: Unoriented, progress: Callable[[float], bool] | None = None) -> tuple[Vectors, float]:
+    """Turn the directions as the winding number has it; estimates far off it are replaced by its own.
 
     Returns also the share of directions that agree with the winding number's.
     """
-    winding = _core.wnnc_normals(points, progress=progress)
-    agreeing = abs(cosines(directions, winding)) >= AGREEING_COSINE
-    signed = turned(directions, winding)
-    # Estimated far off, by neighbours of another sheet or another face: where this is so, the other is right.
-    replaced = estimated & ~agreeing
+    winding = _core.wnnc_normals(cloud.points, progress=progress)
+    agreeing = abs(cosines(cloud.directions, winding)) >= AGREEING_COSINE
+    signed = turned(cloud.directions, winding)
+    # An estimate far off was fitted across an edge or a thin wall, which the winding number knows of.
+    replaced = cloud.estimated & ~agreeing
     signed[replaced] = winding[replaced]
-    return _core.agree_on_signs(points, signed, neighbors), float(agreeing.mean())
+    # Beside large holes of the cloud it may be wrong about half a face: so faces vote.
+    return _core.agree_on_signs(cloud.points, signed, cloud.neighbors), float(agreeing.mean())
 
 
 def turned(directions: Vectors, towards: Vectors) -> Vectors:

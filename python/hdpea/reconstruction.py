@@ -12,8 +12,9 @@ from hdpea import _core
 from hdpea.embedding import embed_surface
 from hdpea.errors import HdpeaError, UsageError, core_errors_translated
 from hdpea.meshing import Mesh, extract_mesh
-from hdpea.normals import TRUSTED_CONSISTENCY, OrientedSurface, oriented_surface
+from hdpea.normals import OrientedSurface, oriented_surface
 from hdpea.options import POINTS_PER_VERTEX, Options
+from hdpea.orientation import TRUSTED_CONSISTENCY
 from hdpea.particles import spread_particles
 from hdpea.progress import ProgressCallback, of_phase, tell
 from hdpea.reading.cloud import PointCloud, cleaned, from_arrays

@@ -104,7 +104,7 @@ def test_lengths_follow_the_vertex_budget_unless_given() -> None:
         return {choice.name: float(choice.value) for choice in embedded.choices}
 
     few, many = chosen(100), chosen(400)
-    assert few.keys() == {"bending_length", "curvature_radius"}
+    assert few.keys() == {"orient", "bending_length", "curvature_radius"}
     for name in few:
         assert few[name] == pytest.approx(2 * many[name])
     assert chosen(100, bending_length=Length(1, percent=True)).keys() == {"curvature_radius"}
