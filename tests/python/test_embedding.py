@@ -104,7 +104,7 @@ def test_lengths_follow_the_vertex_budget_unless_given() -> None:
         return {choice.name: float(choice.value) for choice in embedded.choices}
 
     few, many = chosen(100), chosen(400)
-    assert few.keys() == {"orient", "bending_length", "curvature_radius"}
+    assert few.keys() == {"bending_length", "curvature_radius"}
     for name in few:
         assert few[name] == pytest.approx(2 * many[name])
     assert chosen(100, bending_length=Length(1, percent=True)).keys() == {"curvature_radius"}
@@ -121,7 +121,7 @@ def test_points_are_cleaned_and_the_frame_leads_back_to_them() -> None:
     np.testing.assert_array_equal(found.points, 1e6 + points)
     np.testing.assert_allclose(found.world_from_unit.to_world(found.coordinates[:, :3]), found.points, atol=1e-9)
     np.testing.assert_allclose(np.linalg.norm(found.normals, axis=1), 1)
-    assert {choice.name for choice in found.choices} == {"bending_length", "curvature_radius"}
+    assert {choice.name for choice in found.choices} == {"orient", "bending_length", "curvature_radius"}
 
 
 def test_threads_do_not_change_the_embedding() -> None:
