@@ -22,7 +22,7 @@ struct WnncOptions {
 ///
 /// Every component of a closed surface faces outwards, and a shell within another one into the hollow between them
 /// and itself: inwards. Of an open surface, the side on which it is bulging is out; a flat one has no such side, and
-/// its normals are of no use. Widths are global, so that sampling should not vary by much more than a factor of ten.
+/// its normals are of no use. Widths are the same everywhere: they suit about even sampling.
 ///
 /// @param points    (n, 3), n >= 1, finite and distinct
 /// @returns (n, 3); the order of the points changes no more than the last digits
