@@ -56,9 +56,9 @@ class NormalOptions(_Checked):
     )
     orient: str = option(
         "auto",
-        "which side is out. auto: the file's normals say where neighbours agree, else wnnc, or mst where that says "
-        "little; wnnc: by the winding number, for closed shapes; mst: from neighbour to neighbour along a spanning "
-        "tree; file: as in the file; viewpoint: towards the sensor",
+        "which side is out. auto: the file's normals say where neighbours agree, else wnnc or mst, by which more "
+        "neighbours agree; wnnc: by the winding number, for closed shapes; mst: from neighbour to "
+        "neighbour along a spanning tree; file: as in the file; viewpoint: towards the sensor",
         choices=("auto", "wnnc", "mst", "file", "viewpoint"),
     )
     viewpoint: Position | None = option(

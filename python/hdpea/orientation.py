@@ -21,10 +21,6 @@ TRUSTED_CONSISTENCY = 0.9
 AGREEING_COSINE = 0.5
 """Least |cosine| with the winding number's normal at which a direction is taken for the same normal: 60 degrees."""
 
-LEAST_AGREEMENT = 0.8
-"""Share of directions so near to the winding number's, below which that says nothing: closed shapes have 0.89 and
-more, even with noise, a plane next to none. Parts of rooms have as much as closed shapes, and are not told apart."""
-
 
 @dataclass(frozen=True)
 class Unoriented:
@@ -99,7 +95,7 @@ def orient(
     if way == "auto":
         return _orient_as_fits(cloud, progress)
     if way == "wnnc":
-        return Orientation(by_winding_number(cloud, progress)[0], way)
+        return Orientation(by_winding_number(cloud, progress), way)
     if way == "viewpoint" and seen_from is not None:
         return Orientation(turned(cloud.directions, seen_from - cloud.points), way)
     return Orientation(by_file(cloud) if way == "file" else by_spanning_tree(cloud), way)
@@ -109,11 +105,14 @@ def _orient_as_fits(cloud: Unoriented, progress: Callable[[float], bool] | None)
     consistency = cloud.consistency()
     if consistency is not None and consistency >= TRUSTED_CONSISTENCY:
         return Orientation(by_file(cloud), "file", f"{consistency:.0%} of neighbours agree on the side")
-    normals, agreement = by_winding_number(cloud, progress)
-    why = f"{agreement:.0%} of the directions agree with the winding number's"
-    if agreement < LEAST_AGREEMENT:
-        return Orientation(by_spanning_tree(cloud), "mst", f"only {why}")
-    return Orientation(normals, "wnnc", why)
+    ways = {"wnnc": by_winding_number(cloud, progress), "mst": by_spanning_tree(cloud)}
+    agreed = {
+        way: _core.orientation_consistency(cloud.points, normals, cloud.neighbors) for way, normals in ways.items()
+    }
+    # Noise and thin walls lead the spanning tree astray, large openings the winding number: then neighbours disagree.
+    best, other = ("wnnc", "mst") if agreed["wnnc"] >= agreed["mst"] else ("mst", "wnnc")
+    why = f"{agreed[best]:.2%} of neighbours agree on the side, by {other} {agreed[other]:.2%}"
+    return Orientation(ways[best], best, why)
 
 
 def by_file(cloud: Unoriented) -> Vectors:
@@ -134,11 +133,8 @@ def by_spanning_tree(cloud: Unoriented) -> Vectors:
     return _core.orient_normals(cloud.points, cloud.directions, cloud.neighbors)
 
 
-def by_winding_number(cloud: Unoriented, progress: Callable[[float], bool] | None = None) -> tuple[Vectors, float]:
-    """Turn the directions as the winding number has it; estimates far off it are replaced by its own.
-
-    Returns also the share of directions that agree with the winding number's.
-    """
+def by_winding_number(cloud: Unoriented, progress: Callable[[float], bool] | None = None) -> Vectors:
+    """Turn the directions as the winding number has it; estimates far off it are replaced by its own."""
     winding = _core.wnnc_normals(cloud.points, progress=progress)
     agreeing = abs(cosines(cloud.directions, winding)) >= AGREEING_COSINE
     signed = turned(cloud.directions, winding)
@@ -146,7 +142,7 @@ def by_winding_number(cloud: Unoriented, progress: Callable[[float], bool] | Non
     replaced = cloud.estimated & ~agreeing
     signed[replaced] = winding[replaced]
     # Beside large holes of the cloud it may be wrong about half a face: so faces vote.
-    return _core.agree_on_signs(cloud.points, signed, cloud.neighbors), float(agreeing.mean())
+    return _core.agree_on_signs(cloud.points, signed, cloud.neighbors)
 
 
 def turned(directions: Vectors, towards: Vectors) -> Vectors:
