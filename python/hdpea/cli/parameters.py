@@ -11,20 +11,23 @@ from click.core import ParameterSource
 
 from hdpea.lengths import Length
 from hdpea.options import Options
+from hdpea.position import Position
 from hdpea.settings import Setting, options_from, settings
 
 Decorated = TypeVar("Decorated", bound=Callable[..., Any])
 
 
-class LengthType(click.ParamType[Length]):
-    """A length such as ``0.02`` or ``1%``."""
+class ParsedType(click.ParamType[Any]):
+    """What is given as text that its class can ``parse``: a length such as ``1%``, a position such as ``1,2,3``."""
 
-    name = "length"
+    def __init__(self, kind: type[Length] | type[Position]) -> None:
+        self.kind = kind
+        self.name = kind.__name__.lower()
 
-    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Length:
-        """Return the length; a usage error if it is none."""
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Length | Position:
+        """Return the value; a usage error if it is none."""
         try:
-            return value if isinstance(value, Length) else Length.parse(value)
+            return value if isinstance(value, self.kind) else self.kind.parse(value)
         except ValueError as error:
             self.fail(f"{error}.", param, ctx)
 
@@ -91,7 +94,7 @@ def setting_options(
 
 def _flag(setting: Setting) -> Callable[[Decorated], Decorated]:
     flag = "--" + setting.name.replace("_", "-")
-    kinds: dict[type, Any] = {Length: LengthType(), float: ShareType()}
+    kinds: dict[type, Any] = {Length: ParsedType(Length), Position: ParsedType(Position), float: ShareType()}
     return click.option(
         f"{flag}/--no-{flag[2:]}" if setting.kind is bool else flag,
         cls=GroupedOption,
