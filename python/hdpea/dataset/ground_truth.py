@@ -11,15 +11,15 @@ from numpy.typing import NDArray
 from hdpea import _core
 from hdpea.dataset.options import GroundTruthOptions, SamplingOptions
 from hdpea.dataset.sampling import sample_surface
-from hdpea.errors import core_errors_translated
+from hdpea.errors import CannotReconstruct, core_errors_translated
 from hdpea.frame import UnitFrame
 from hdpea.progress import ProgressCallback, of_phase, tell
 
 CURVATURE_SAMPLES = 100_000
-"""Points of the surface whose normals curvature is fitted to: dense enough that their number does not matter."""
+"""Points of the surface whose normals curvature is fitted to."""
 
 CURVATURE_NEIGHBORS = 100
-"""Nearest of them looked at around each vertex: all within the radius, on models of the usual area."""
+"""Nearest of them looked at around each vertex: all of one sheet within the radius."""
 
 
 @dataclass(frozen=True)
@@ -92,28 +92,32 @@ def embed_mesh(
     """Embed an edge-manifold, oriented triangle mesh (v, 3), (f, 3) in R^8.
 
     The mesh is remeshed, since a solver needs better triangles than CAD gives; curvature is fitted, at a
-    fixed length, to the normals of the *given* mesh.
+    fixed length, to the normals of the *given* mesh. Lengths scale with the area (``GroundTruthOptions``).
 
     Raises
     ------
     UsageError
         If the mesh is not edge-manifold and oriented.
     CannotReconstruct
-        If it has no extent.
+        If it has no extent, or no area.
     """
     options = options or GroundTruthOptions()
     frame = UnitFrame.around(vertices_in_world)
     given = frame.to_unit(vertices_in_world)
+    spacing = float(np.sqrt(area(given, faces) / options.vertices))
     remeshing, solver = _core.RemeshingOptions(), _core.EmbeddingOptions()
-    remeshing.edge_length = options.remesh_length
-    solver.metric_scale, solver.max_stretch = options.metric_scale, options.max_stretch
-    solver.bending_length = options.bending_length
+    remeshing.edge_length = options.remesh_length * spacing
+    solver.bending_length = options.bending_length * spacing
+    solver.metric_scale = options.metric_scale * spacing
+    solver.max_stretch = options.max_stretch
+    if spacing == 0:
+        raise CannotReconstruct("The mesh has no area.", "Its faces are degenerate.")
     with core_errors_translated():
         tell(progress, "remeshing", 0)
         mesh = _core.remesh_isotropically(given, faces, remeshing)
         normals = vertex_normals(mesh.vertices, mesh.faces)
         tell(progress, "curvature", 0)
-        curvature = _curvature_at(mesh.vertices, normals, given, faces, options.curvature_radius)
+        curvature = _curvature_at(mesh.vertices, normals, given, faces, options.curvature_radius * spacing)
         whole = np.ones(len(mesh.faces))
         phase = of_phase(progress, "embedding")
         psi = _core.solve_embedding(mesh.vertices, normals, curvature, mesh.faces, whole, solver, phase)
@@ -140,12 +144,20 @@ def _curvature_at(
     return curvature
 
 
+def area(vertices: NDArray[np.float64], faces: NDArray[np.int64]) -> float:
+    """Return the area of a mesh."""
+    return float(np.linalg.norm(_doubled_area_vectors(vertices, faces), axis=1).sum() / 2)
+
+
 def vertex_normals(vertices: NDArray[np.float64], faces: NDArray[np.int64]) -> NDArray[np.float64]:
     """Return unit normals (v, 3) of a mesh's vertices, the mean of their faces' by area."""
-    corners = vertices[faces]
-    by_area = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     sums = np.zeros_like(vertices)
     for corner in range(3):
-        np.add.at(sums, faces[:, corner], by_area)
+        np.add.at(sums, faces[:, corner], _doubled_area_vectors(vertices, faces))
     lengths = np.linalg.norm(sums, axis=1, keepdims=True)
     return np.where(lengths > 0, sums / np.where(lengths > 0, lengths, 1), np.eye(3)[2])
+
+
+def _doubled_area_vectors(vertices: NDArray[np.float64], faces: NDArray[np.int64]) -> NDArray[np.float64]:
+    corners = vertices[faces]
+    return np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
