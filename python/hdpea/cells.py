@@ -12,8 +12,8 @@ CELL_NEIGHBORS = 40
 """Nearest particles whose bisectors cut a cell: enough for disks of up to two mean distances."""
 
 
-SPARSE_NEIGHBOR = 2
-"""Index of the neighbour (the third) whose distance widens a disk where it is beyond the mean spacing."""
+SPARSE_NEIGHBOR, SPARSE_RADIUS = 5, 1.5
+"""A disk holds at least so many distances of the sixth neighbour, which is 1.3 spacings away where all is even."""
 
 
 def restricted_cells(
@@ -37,6 +37,6 @@ def restricted_cells(
     nearest, sparse = (
         np.linalg.norm(coordinates[neighbors[:, column]] - coordinates, axis=1) for column in (0, SPARSE_NEIGHBOR)
     )
-    radii = disk_radius * np.maximum(sparse, nearest.mean())
+    radii = np.maximum(disk_radius * nearest.mean(), SPARSE_RADIUS * sparse)
     flat_bases = bases.reshape(len(coordinates), -1)
     return _core.restricted_voronoi_candidates(coordinates, flat_bases, neighbors, radii), radii
