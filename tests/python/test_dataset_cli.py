@@ -78,9 +78,8 @@ def test_the_facts_of_a_sample_are_told(tmp_path: Path, capsys: Capture) -> None
     assert "points        50" in told
     assert "estimated_normals, sensors" in told
     assert "diagonal 7 around 1 2 3" in told
-    # sqrt(c k) with c = 0.5 and k = sqrt(12).
-    assert "stretch along k1" in told
-    assert "1.316" in told
+    for known in ("stretch along k1", "isometry error", "roughness"):
+        assert known in told
 
 
 def test_a_scan_as_ply_can_be_reconstructed_and_knows_its_sensors(tmp_path: Path) -> None:
