@@ -8,7 +8,9 @@
 #include <CGAL/Polygon_mesh_processing/remesh.h>
 #include <CGAL/Surface_mesh.h>
 
+#include <algorithm>
 #include <array>
+#include <utility>
 #include <vector>
 
 #include "hdpea_cpp/errors.hpp"
@@ -20,6 +22,18 @@ namespace pmp = CGAL::Polygon_mesh_processing;
 using Point = CGAL::Exact_predicates_inexact_constructions_kernel::Point_3;
 using SurfaceMesh = CGAL::Surface_mesh<Point>;
 
+/// Whether no two faces run through an edge in the same direction, and none repeats a vertex. Of three faces at an
+/// edge two do, so this is edge-manifold as well.
+bool consistently_oriented(const FacesRef& faces) {
+  std::vector<std::pair<Index, Index>> edges;
+  for (Index f = 0; f < faces.rows(); ++f) {
+    for (int corner = 0; corner < 3; ++corner) edges.emplace_back(faces(f, corner), faces(f, (corner + 1) % 3));
+  }
+  std::sort(edges.begin(), edges.end());
+  return std::adjacent_find(edges.begin(), edges.end()) == edges.end() &&
+         std::none_of(edges.begin(), edges.end(), [](const auto& edge) { return edge.first == edge.second; });
+}
+
 SurfaceMesh to_cgal(const PointsRef& vertices, const FacesRef& faces) {
   std::vector<Point> points;
   for (Index v = 0; v < vertices.rows(); ++v) points.emplace_back(vertices(v, 0), vertices(v, 1), vertices(v, 2));
@@ -28,9 +42,8 @@ SurfaceMesh to_cgal(const PointsRef& vertices, const FacesRef& faces) {
     triangles.push_back({static_cast<std::size_t>(faces(f, 0)), static_cast<std::size_t>(faces(f, 1)),
                          static_cast<std::size_t>(faces(f, 2))});
   }
-  // A Surface_mesh has no pinched vertices: this gives each fan a vertex of its own.
+  // A Surface_mesh has no pinched vertices: this gives each fan a vertex of its own. It turns no face, since all agree.
   pmp::orient_polygon_soup(points, triangles);
-  require(pmp::is_polygon_soup_a_polygon_mesh(triangles), "remeshing needs an edge-manifold mesh");
   SurfaceMesh mesh;
   pmp::polygon_soup_to_polygon_mesh(points, triangles, mesh);
   return mesh;
@@ -57,6 +70,7 @@ TriangleMesh remesh_isotropically(const PointsRef& vertices, const FacesRef& fac
   require(vertices.allFinite(), "a coordinate is not finite");
   require(faces.size() > 0 && faces.minCoeff() >= 0 && faces.maxCoeff() < vertices.rows(),
           "remeshing needs faces, all of vertices that exist");
+  require(consistently_oriented(faces), "remeshing needs at most two faces to an edge, of one orientation");
   SurfaceMesh mesh = to_cgal(vertices, faces);
   auto sharp = mesh.add_property_map<SurfaceMesh::Edge_index, bool>("e:sharp", false).first;
   pmp::detect_sharp_edges(mesh, options.sharp_angle, sharp);
