@@ -10,6 +10,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <numbers>
 #include <utility>
 #include <vector>
 
@@ -49,6 +51,19 @@ SurfaceMesh to_cgal(const PointsRef& vertices, const FacesRef& faces) {
   return mesh;
 }
 
+/// Marks the vertices at which the border turns by more than the angle: CGAL would cut such corners off.
+void mark_border_corners(const SurfaceMesh& mesh, double sharp_angle,
+                         SurfaceMesh::Property_map<SurfaceMesh::Vertex_index, bool>& corner) {
+  const double straight = std::cos(sharp_angle * std::numbers::pi / 180);
+  for (const auto h : mesh.halfedges()) {
+    if (!mesh.is_border(h)) continue;
+    const Point &from = mesh.point(mesh.source(h)), &at = mesh.point(mesh.target(h)),
+                &to = mesh.point(mesh.target(mesh.next(h)));
+    const double cosine = (at - from) * (to - at);
+    corner[mesh.target(h)] = cosine < straight * std::sqrt((at - from).squared_length() * (to - at).squared_length());
+  }
+}
+
 TriangleMesh from_cgal(SurfaceMesh& mesh) {
   mesh.collect_garbage();
   TriangleMesh result{Points(mesh.number_of_vertices(), 3), Faces(mesh.number_of_faces(), 3)};
@@ -74,10 +89,13 @@ TriangleMesh remesh_isotropically(const PointsRef& vertices, const FacesRef& fac
   SurfaceMesh mesh = to_cgal(vertices, faces);
   auto sharp = mesh.add_property_map<SurfaceMesh::Edge_index, bool>("e:sharp", false).first;
   pmp::detect_sharp_edges(mesh, options.sharp_angle, sharp);
+  auto corner = mesh.add_property_map<SurfaceMesh::Vertex_index, bool>("v:corner", false).first;
+  mark_border_corners(mesh, options.sharp_angle, corner);
   pmp::isotropic_remeshing(mesh.faces(), options.edge_length, mesh,
                            CGAL::parameters::number_of_iterations(static_cast<unsigned>(options.iterations))
                                .number_of_relaxation_steps(3)
                                .edge_is_constrained_map(sharp)
+                               .vertex_is_constrained_map(corner)
                                .relax_constraints(false));
   return from_cgal(mesh);
 }

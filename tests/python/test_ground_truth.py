@@ -166,8 +166,8 @@ def test_scale_and_place_in_the_world_do_not_matter() -> None:
     one = embed_mesh(vertices, faces, options)
     other = embed_mesh(1000 * vertices + [5, -3000, 70], faces, options)
     np.testing.assert_array_equal(other.faces, one.faces)
-    np.testing.assert_allclose(other.psi, one.psi, atol=1e-8)
-    np.testing.assert_allclose(other.curvatures, one.curvatures, atol=1e-6)
+    np.testing.assert_allclose(other.psi, one.psi, atol=1e-5)
+    np.testing.assert_allclose(other.curvatures, one.curvatures, atol=1e-3)
     assert other.frame.diagonal == pytest.approx(1000 * one.frame.diagonal)
 
 
@@ -192,4 +192,4 @@ def test_normals_of_vertices_are_means_by_area() -> None:
     true = vertices / [1, 0.36, 0.16]
     true /= np.linalg.norm(true, axis=1, keepdims=True)
     assert np.einsum("vc,vc->v", normals, true).min() > 0.99
-    assert area(vertices, faces) == pytest.approx(5.13, rel=0.05)
+    assert area(vertices, faces) == pytest.approx(5.39, rel=0.002)
