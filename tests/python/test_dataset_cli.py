@@ -107,6 +107,20 @@ def test_what_cannot_be_scanned_is_told(tmp_path: Path, failed: Failed) -> None:
     assert not (tmp_path / "scan.ply").exists()
 
 
+def test_a_missing_library_is_told_once(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, failed: Failed) -> None:
+    meshes = write_meshes(tmp_path / "meshes", "a", "b")
+    monkeypatch.setattr("hdpea.dataset.raycasting.find_spec", lambda _: None)
+    assert "embreex is not installed" in failed(2, *build(meshes, tmp_path / "out", "--kind", "scan"))
+    assert not (tmp_path / "out").exists()
+
+
+def test_what_makes_a_sample_worse_is_listed_as_that(capsys: Capture) -> None:
+    assert run(["dataset", "degrade", "--help"]) == 0
+    told = capsys.readouterr().out
+    assert told.index("Degradation:") < told.index("--outliers")
+    assert "Run:" not in told
+
+
 def test_a_sample_is_made_worse(tmp_path: Path, failed: Failed) -> None:
     write_sample(tmp_path / "sample.npz", sphere_sample(count=2000, scanned=True))
     degrade = ["dataset", "degrade", str(tmp_path / "sample.npz")]
