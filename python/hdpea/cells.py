@@ -12,10 +12,17 @@ CELL_NEIGHBORS = 40
 """Nearest particles whose bisectors cut a cell: enough for disks of up to two mean distances."""
 
 
+SPARSE_NEIGHBOR = 2
+"""Index of the neighbour (the third) whose distance widens a disk where it is beyond the mean spacing."""
+
+
 def restricted_cells(
     coordinates: NDArray[np.float64], bases: NDArray[np.float64], disk_radius: float
-) -> tuple[_core.Candidates, float]:
-    """Return the triangles dual to the cells' corners with the cells' areas, and the disks' radius in R^d.
+) -> tuple[_core.Candidates, NDArray[np.float64]]:
+    """Return the triangles dual to the cells' corners with the cells' areas, and the disks' radii (m,) in R^d.
+
+    Where the points are too few for the stretch of the embedding, particles lie farther apart than on average;
+    there the disks are wider, or they would not meet.
 
     Parameters
     ----------
@@ -27,7 +34,9 @@ def restricted_cells(
         In mean distances of the particles to their nearest neighbours.
     """
     neighbors = _core.nearest_neighbors(coordinates, CELL_NEIGHBORS)
-    radius = disk_radius * float(np.linalg.norm(coordinates[neighbors[:, 0]] - coordinates, axis=1).mean())
+    nearest, sparse = (
+        np.linalg.norm(coordinates[neighbors[:, column]] - coordinates, axis=1) for column in (0, SPARSE_NEIGHBOR)
+    )
+    radii = disk_radius * np.maximum(sparse, nearest.mean())
     flat_bases = bases.reshape(len(coordinates), -1)
-    radii = np.full(len(coordinates), radius)
-    return _core.restricted_voronoi_candidates(coordinates, flat_bases, neighbors, radii), radius
+    return _core.restricted_voronoi_candidates(coordinates, flat_bases, neighbors, radii), radii

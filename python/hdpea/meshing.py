@@ -22,7 +22,7 @@ DISK_RADIUS = 1.8
 """Radius of the disks in mean distances of the particles in R^d."""
 
 MAX_CIRCUMRADIUS = 1.2
-"""Largest circumradius of a face in R^d, in disk radii."""
+"""Largest circumradius of a face in R^d, in radii of the largest disk."""
 
 HOLES_FILLED = 4.0
 """Size of the largest hole that is filled unasked, in spacings of the vertices in R^3."""
@@ -70,11 +70,12 @@ def extract_mesh(
     options = options or MeshingOptions()
     with core_errors_translated():
         normals = np.ascontiguousarray(surface.normals[particles.nearest])
-        candidates, radius = restricted_cells(particles.coordinates, bases[particles.nearest], DISK_RADIUS)
-        why = f"{DISK_RADIUS:g} mean distances of the vertices in the embedding"
-        disks = Choice("disk_radius", radius * surface.frame.diagonal, "world units under the metric", why)
+        candidates, radii = restricted_cells(particles.coordinates, bases[particles.nearest], DISK_RADIUS)
+        why = f"{DISK_RADIUS:g} mean distances of the vertices in the embedding; more where they are sparse"
+        smallest = float(radii.min()) * surface.frame.diagonal
+        disks = Choice("disk_radius", smallest, "world units under the metric", why)
         limits = _core.ExtractionOptions()
-        limits.max_circumradius = MAX_CIRCUMRADIUS * radius
+        limits.max_circumradius = MAX_CIRCUMRADIUS * float(radii.max())
         limits.min_component_faces = options.min_component
         extracted = _core.extract_manifold(particles.coordinates, normals, candidates, limits)
         if len(extracted.faces) == 0:

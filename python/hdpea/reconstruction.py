@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hdpea import _core
-from hdpea.embedding import embed_surface
+from hdpea.embedding import Embedder, embed_surface
 from hdpea.errors import HdpeaError, UsageError, core_errors_translated
 from hdpea.meshing import Mesh, extract_mesh
 from hdpea.normals import OrientedSurface, oriented_surface
@@ -59,6 +59,7 @@ def reconstruct(
     options: Options | None = None,
     progress: ProgressCallback | None = None,
     sensors: NDArray[np.float64] | None = None,
+    embedder: Embedder | None = None,
 ) -> Reconstruction:
     """Make a compact anisotropic triangle mesh of a point cloud.
 
@@ -74,6 +75,8 @@ def reconstruct(
         Called with a phase of ``PHASES`` and the fraction of it done; returning False cancels.
     sensors
         (n, 3), from where each point was seen; needed only to orient by viewpoint.
+    embedder
+        An embedding of your own, in place of the one that the options name.
 
     Raises
     ------
@@ -106,7 +109,7 @@ def reconstruct(
                 cloud.points, cloud.normals, options.normals, points_per_vertex, progress, cloud.sensors()
             )
         _tell_of_cloud(report, cloud, oriented)
-        mesh = _mesh_of(oriented.surface, report, progress)
+        mesh = _mesh_of(oriented.surface, report, progress, embedder)
         with report.clock.stage("measuring"):
             tell(progress, "measuring", 0)
             _measure(mesh, oriented.surface, report)
@@ -125,7 +128,9 @@ def _tell_of_cloud(report: Report, cloud: PointCloud, oriented: OrientedSurface)
         report.notes.append(f"The given normals point both ways ({share}); they were oriented anew.")
 
 
-def _mesh_of(surface: Surface, report: Report, progress: ProgressCallback | None) -> Mesh:
+def _mesh_of(
+    surface: Surface, report: Report, progress: ProgressCallback | None, embedder: Embedder | None
+) -> Mesh:
     """Embed, spread, join and fit; spread again with another count where the budget was missed."""
     options, points = report.options, len(surface.points_in_unit)
     vertices = options.meshing.vertices_of(points)
@@ -137,7 +142,7 @@ def _mesh_of(surface: Surface, report: Report, progress: ProgressCallback | None
     if options.meshing.vertices is None and options.meshing.faces is None:
         report.choices.append(Choice("vertices", vertices, "", f"one for every {POINTS_PER_VERTEX} points"))
     with report.clock.stage("embedding"):
-        embedded = embed_surface(surface, vertices, options.embedding, progress)
+        embedded = embed_surface(surface, vertices, options.embedding, progress, embedder)
         bases = tangent_bases(embedded.coordinates, surface.normals, surface.neighbors, points / vertices)
     count = vertices
     for _ in range(ATTEMPTS):

@@ -56,11 +56,19 @@ class Embedding:
 
 
 def embed_surface(
-    surface: Surface, vertices: int, options: EmbeddingOptions, progress: ProgressCallback | None = None
+    surface: Surface,
+    vertices: int,
+    options: EmbeddingOptions,
+    progress: ProgressCallback | None = None,
+    embedder: Embedder | None = None,
 ) -> Embedded:
-    """Embed an oriented surface at the scale that a mesh of so many `vertices` can show."""
+    """Embed an oriented surface at the scale that a mesh of so many `vertices` can show.
+
+    `embedder` takes the place of the one that the options name.
+    """
+    embedder = embedder or EMBEDDERS[options.embedding]
     with core_errors_translated():
-        return EMBEDDERS[options.embedding](surface, vertices, options, of_phase(progress, "embedding"))
+        return embedder(surface, vertices, options, of_phase(progress, "embedding"))
 
 
 def embed_points(
