@@ -92,7 +92,7 @@ def embed_mesh(
     options: GroundTruthOptions | None = None,
     progress: ProgressCallback | None = None,
 ) -> EmbeddedMesh:
-    """Embed an edge-manifold, oriented triangle mesh (v, 3), (f, 3) in R^8.
+    """Embed an edge-manifold, oriented triangle mesh (v, 3), (f, 3), closed or with borders, in R^8.
 
     The mesh is remeshed, since a solver needs better triangles than CAD gives; curvature is fitted, at a
     fixed length, to the normals of the *given* mesh. Lengths scale with the area (``GroundTruthOptions``).

@@ -33,7 +33,7 @@ def spacing_of(sample: Sample, options: GroundTruthOptions) -> float:
     offsets, known = _offsets(sample.surface_points.astype(np.float64), neighbors_of(sample))
     squared_radii = np.einsum("nkc,nkc->nk", offsets, offsets).max(axis=1)
     area = float((np.pi * squared_radii / np.maximum(known.sum(axis=1), 1)).sum())
-    return (area / options.vertices) ** 0.5
+    return float(np.sqrt(area / options.vertices))
 
 
 def stretches(curvatures: NDArray[np.float32], options: GroundTruthOptions, spacing: float) -> Rows:
@@ -65,7 +65,7 @@ def isometry_errors(sample: Sample, options: GroundTruthOptions, spacing: float)
     apart = known & (wanted > 0)  # points may coincide
     ratios = np.linalg.norm(embedded, axis=2) / np.where(apart, wanted, 1)
     squares = np.where(apart, (ratios - 1) ** 2, 0).sum(axis=1)
-    return np.sqrt(squares / np.maximum(apart.sum(axis=1), 1))
+    return np.asarray(np.sqrt(squares / np.maximum(apart.sum(axis=1), 1)))
 
 
 def roughness(sample: Sample) -> Rows:
@@ -80,7 +80,7 @@ def roughness(sample: Sample) -> Rows:
     centred = np.where(known[:, :, None], offsets - offsets.sum(axis=1, keepdims=True) / counts, 0)
     spread = np.linalg.eigvalsh(np.einsum("nki,nkj->nij", centred, centred)).clip(0)
     total = spread.sum(axis=1)
-    return np.sqrt(spread[:, :-2].sum(axis=1) / np.where(total > 0, total, 1))
+    return np.asarray(np.sqrt(spread[:, :-2].sum(axis=1) / np.where(total > 0, total, 1)))
 
 
 def _offsets(rows: Rows, neighbors: NDArray[np.int64]) -> tuple[Rows, NDArray[np.bool_]]:
@@ -93,4 +93,4 @@ def _metric(sample: Sample, stretch: Rows) -> Rows:
     """Return M (n, 3, 3), the identity along the normals."""
     direction1 = sample.direction1.astype(np.float64)
     directions = np.stack([direction1, np.cross(sample.normals.astype(np.float64), direction1)], axis=1)
-    return np.eye(3) + np.einsum("nd,ndi,ndj->nij", stretch**2 - 1, directions, directions)
+    return np.asarray(np.eye(3) + np.einsum("nd,ndi,ndj->nij", stretch**2 - 1, directions, directions))
