@@ -3,9 +3,10 @@
 
     python benchmarks/orientation_table.py [--meshes bull,trex]
 
-Each mesh of a folder is sampled as `val_table.py` does; normals are estimated from the points and oriented, and
-compared with the true ones. Also times every way on scans as they come from scanners, whose true normals nobody knows.
-Prints Markdown. Needs the `bench` dependency group (`make bench-setup`).
+Each mesh of a folder is sampled as `val_table.py` does, and scanned by a simulated sensor; normals are estimated from
+the points, oriented, and compared with the true ones. Also times every way on scans as they come from scanners, whose
+true normals nobody knows.
+Prints Markdown. Needs the `bench` dependency group and embreex (`make bench-setup` has both).
 """
 
 from __future__ import annotations
@@ -19,9 +20,12 @@ from pathlib import Path
 import click
 import numpy as np
 from numpy.typing import NDArray
-from scipy.spatial import ConvexHull
 from val_table import POINTS, ROOT, load_metrics, read_mesh
 
+from hdpea.dataset.options import ScanOptions
+from hdpea.dataset.scanning import scan_surface
+from hdpea.dataset.surface_file import read_surface
+from hdpea.frame import UnitFrame
 from hdpea.normals import oriented_surface
 from hdpea.options import NormalOptions
 from hdpea.position import Position
@@ -30,12 +34,12 @@ from hdpea.reading import read_points
 Array = NDArray[np.float64]
 
 NOISE = 0.003
-"""Standard deviation of the noise, in bounding-box diagonals."""
+"""Standard deviation of the noise, in bounding-box diagonals; in scans that of the range."""
 
-SENSORS = 6
-"""Places around the object from which it is scanned; what none of them sees is a hole."""
+VIEWS = 6
+"""Places from which a mesh is scanned: few, and all above it, so that there are holes."""
 
-WAYS = ("wnnc", "mst", "viewpoint")
+WAYS = ("auto", "wnnc", "mst", "viewpoint")
 
 
 @dataclass(frozen=True)
@@ -63,30 +67,13 @@ def noisy(cloud: Cloud, seed: int) -> Cloud:
     return Cloud(cloud.points + noise, cloud.normals, cloud.sensors)
 
 
-def scanned(cloud: Cloud) -> Cloud:
-    """Return the points that a ring of sensors around the cloud sees, each with the first one that sees it."""
-    middle = (cloud.points.min(axis=0) + cloud.points.max(axis=0)) / 2
-    away = 2 * np.linalg.norm(np.ptp(cloud.points, axis=0))
-    angles = 2 * np.pi * np.arange(SENSORS) / SENSORS
-    ring = middle + away * np.stack([np.cos(angles), np.sin(angles), np.full(SENSORS, 0.4)], axis=1)
-    seen_by = np.full(len(cloud.points), -1)
-    for number, sensor in enumerate(ring):
-        seen = visible(cloud.points, sensor)
-        faces_it = np.einsum("nc,nc->n", sensor - cloud.points, cloud.normals) > 0
-        seen_by[seen & faces_it & (seen_by < 0)] = number
-    kept = seen_by >= 0
-    return Cloud(cloud.points[kept], cloud.normals[kept], ring[seen_by[kept]])
-
-
-def visible(points: Array, sensor: Array) -> NDArray[np.bool_]:
-    """Say which points are not hidden by others (Katz, Tal & Basri 2007): those on the hull once turned inside out."""
-    offset = points - sensor
-    distance = np.linalg.norm(offset, axis=1, keepdims=True)
-    inverted = offset + 2 * (100 * distance.max() - distance) * offset / distance
-    on_hull = ConvexHull(np.vstack([inverted, np.zeros((1, 3))])).vertices
-    seen = np.zeros(len(points) + 1, dtype=bool)
-    seen[on_hull] = True
-    return seen[:-1]
+def scanned(path: Path, noise: float, seed: int) -> Cloud:
+    """Return what a sensor sees of a mesh on a turntable; what it does not see is a hole."""
+    vertices, faces = read_surface(path)
+    frame = UnitFrame.around(vertices)
+    options = ScanOptions(points=POINTS, sensor="turntable", views=VIEWS, noise=noise, seed=seed)
+    scan = scan_surface(frame.to_unit(vertices), faces, options)
+    return Cloud(frame.to_world(scan.points), scan.normals, frame.to_world(scan.sensors))
 
 
 def score(cloud: Cloud, way: str) -> Score:
@@ -154,8 +141,8 @@ def main(*, folder: Path, baselines: Path, scans: Path, meshes: str | None) -> N
     conditions: dict[str, Callable[[str], Cloud]] = {
         "clean": lambda name: clean[name],
         f"{NOISE:.1%} noise": lambda name: noisy(clean[name], seeds[name]),
-        "scan with holes": lambda name: scanned(clean[name]),
-        f"the same, {NOISE:.1%} noise": lambda name: noisy(scanned(clean[name]), seeds[name]),
+        "scan with holes": lambda name: scanned(folder / f"{name}.ply", 0, seeds[name]),
+        f"the same, {NOISE:.1%} noise": lambda name: scanned(folder / f"{name}.ply", NOISE, seeds[name]),
     }
     click.echo("| cloud | --orient | within 90 degrees, % | worst mesh, % | mean error, degrees | seconds |")
     click.echo("|---|---|---|---|---|---|")

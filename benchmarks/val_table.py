@@ -25,7 +25,6 @@ import click
 import numpy as np
 import trimesh
 from numpy.typing import NDArray
-
 from oracle import ORACLE, oracle_embedder
 
 from hdpea import _core, reconstruct

@@ -128,9 +128,7 @@ def _tell_of_cloud(report: Report, cloud: PointCloud, oriented: OrientedSurface)
         report.notes.append(f"The given normals point both ways ({share}); they were oriented anew.")
 
 
-def _mesh_of(
-    surface: Surface, report: Report, progress: ProgressCallback | None, embedder: Embedder | None
-) -> Mesh:
+def _mesh_of(surface: Surface, report: Report, progress: ProgressCallback | None, embedder: Embedder | None) -> Mesh:
     """Embed, spread, join and fit; spread again with another count where the budget was missed."""
     options, points = report.options, len(surface.points_in_unit)
     vertices = options.meshing.vertices_of(points)

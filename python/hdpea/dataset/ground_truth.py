@@ -21,6 +21,9 @@ CURVATURE_SAMPLES = 100_000
 CURVATURE_NEIGHBORS = 100
 """Nearest of them looked at around each vertex: all of one sheet within the radius."""
 
+LEAST_AREA = 1e-9
+"""Of a surface, in the unit frame: less is a line and its rounding, which edges of no length would have to cover."""
+
 
 @dataclass(frozen=True)
 class PointTruth:
@@ -70,7 +73,7 @@ class EmbeddedMesh:
 
     def _shape_operators(self) -> NDArray[np.float64]:
         directions = np.stack([self.direction1, np.cross(self.normals, self.direction1)], axis=1)
-        return np.einsum("nd,ndi,ndj->nij", self.curvatures, directions, directions)
+        return np.asarray(np.einsum("nd,ndi,ndj->nij", self.curvatures, directions, directions))
 
 
 def principal_curvatures(
@@ -89,7 +92,7 @@ def embed_mesh(
     options: GroundTruthOptions | None = None,
     progress: ProgressCallback | None = None,
 ) -> EmbeddedMesh:
-    """Embed an edge-manifold, oriented triangle mesh (v, 3), (f, 3) in R^8.
+    """Embed an edge-manifold, oriented triangle mesh (v, 3), (f, 3), closed or with borders, in R^8.
 
     The mesh is remeshed, since a solver needs better triangles than CAD gives; curvature is fitted, at a
     fixed length, to the normals of the *given* mesh. Lengths scale with the area (``GroundTruthOptions``).
@@ -104,14 +107,15 @@ def embed_mesh(
     options = options or GroundTruthOptions()
     frame = UnitFrame.around(vertices_in_world)
     given = frame.to_unit(vertices_in_world)
-    spacing = float(np.sqrt(area(given, faces) / options.vertices))
+    total = area(given, faces)
+    if total < LEAST_AREA:
+        raise CannotReconstruct("The mesh has no area.", "Its faces are degenerate.")
+    spacing = float(np.sqrt(total / options.vertices))
     remeshing, solver = _core.RemeshingOptions(), _core.EmbeddingOptions()
     remeshing.edge_length = options.remesh_length * spacing
     solver.bending_length = options.bending_length * spacing
     solver.metric_scale = options.metric_scale * spacing
     solver.max_stretch = options.max_stretch
-    if spacing == 0:
-        raise CannotReconstruct("The mesh has no area.", "Its faces are degenerate.")
     with core_errors_translated():
         tell(progress, "remeshing", 0)
         mesh = _core.remesh_isotropically(given, faces, remeshing)
