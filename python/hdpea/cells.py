@@ -12,31 +12,45 @@ CELL_NEIGHBORS = 40
 """Nearest particles whose bisectors cut a cell: enough for disks of up to two mean distances."""
 
 
-SPARSE_NEIGHBOR, SPARSE_RADIUS = 5, 1.5
+PLANE_NEIGHBORS = 6
+"""Nearest particles that a particle's plane goes through: those that its cell meets, in an even spread."""
+
+SPARSE_RADIUS = 1.5
 """A disk holds at least so many distances of the sixth neighbour, which is 1.3 spacings away where all is even."""
 
 
 def restricted_cells(
-    coordinates: NDArray[np.float64], bases: NDArray[np.float64], disk_radius: float
+    coordinates: NDArray[np.float64], disk_radius: float
 ) -> tuple[_core.Candidates, NDArray[np.float64]]:
     """Return the triangles dual to the cells' corners with the cells' areas, and the disks' radii (m,) in R^d.
 
-    Where the points are too few for the stretch of the embedding, particles lie farther apart than on average;
-    there the disks are wider, or they would not meet.
+    Disks lie in the planes of the particles themselves, not of the cloud (paper, section 3.3): where the surface
+    bends within a cell, as on thin struts, those of neighbours agree better, and so do their cells. Where the points
+    are too few for the stretch of the embedding, particles lie farther apart than on average; there the disks are
+    wider, or they would not meet.
 
     Parameters
     ----------
     coordinates
         (m, d) float64.
-    bases
-        (m, 2, d) float64, orthonormal.
     disk_radius
         In mean distances of the particles to their nearest neighbours.
     """
     neighbors = _core.nearest_neighbors(coordinates, CELL_NEIGHBORS)
-    nearest, sparse = (
-        np.linalg.norm(coordinates[neighbors[:, column]] - coordinates, axis=1) for column in (0, SPARSE_NEIGHBOR)
-    )
-    radii = np.maximum(disk_radius * nearest.mean(), SPARSE_RADIUS * sparse)
-    flat_bases = bases.reshape(len(coordinates), -1)
+    offsets = coordinates[neighbors[:, :PLANE_NEIGHBORS]] - coordinates[:, None]
+    distances = np.linalg.norm(offsets, axis=2)
+    radii = np.maximum(disk_radius * distances[:, 0].mean(), SPARSE_RADIUS * distances[:, -1])
+    flat_bases = _planes(offsets, distances).reshape(len(coordinates), -1)
     return _core.restricted_voronoi_candidates(coordinates, flat_bases, neighbors, radii), radii
+
+
+def _planes(offsets: NDArray[np.float64], distances: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return orthonormal bases (m, 2, d) of the planes of the `offsets` (m, k, d) to the neighbours, by PCA.
+
+    Weights fall with the distance, so that a seventh neighbour as near as the sixth makes little difference.
+    """
+    squared = distances**2
+    weights = np.exp(-squared / squared.mean(axis=1, keepdims=True))
+    covariances = np.einsum("mk,mki,mkj->mij", weights, offsets, offsets)
+    vectors = np.linalg.eigh(covariances).eigenvectors
+    return np.ascontiguousarray(vectors[:, :, -2:].swapaxes(1, 2))
