@@ -40,7 +40,7 @@ def main(out: Path, vertices: int = 1_000) -> None:
 
     # Vertices even in R^8, hence dense across the tube and sparse along it in R^3.
     particles = spread_particles(coordinates, bases, surface.neighbors, vertices)
-    mesh = extract_mesh(particles, surface)
+    mesh = extract_mesh(particles, bases, surface)
     print(f"{mesh.statistics['t3']} triangles agreed upon by all three corners; {len(mesh.faces)} faces")
 
     # Vertices lie on tangent planes, outside of every bend; the fit pulls the faces through the points.

@@ -50,11 +50,15 @@ class Mesh:
     choices: tuple[Choice, ...] = ()
 
 
-def extract_mesh(particles: Particles, surface: Surface, options: MeshingOptions | None = None) -> Mesh:
+def extract_mesh(
+    particles: Particles, bases: NDArray[np.float64], surface: Surface, options: MeshingOptions | None = None
+) -> Mesh:
     """Join particles to a mesh.
 
     Parameters
     ----------
+    bases
+        (n, 2, d) tangent bases of the cloud.
     surface
         Where the normals come from.
 
@@ -66,7 +70,7 @@ def extract_mesh(particles: Particles, surface: Surface, options: MeshingOptions
     options = options or MeshingOptions()
     with core_errors_translated():
         normals = np.ascontiguousarray(surface.normals[particles.nearest])
-        candidates, radii = restricted_cells(particles.coordinates, DISK_RADIUS)
+        candidates, radii = restricted_cells(particles.coordinates, bases[particles.nearest], DISK_RADIUS)
         why = f"{DISK_RADIUS:g} mean distances of the vertices in the embedding; more where they are sparse"
         smallest = float(radii.min()) * surface.frame.diagonal
         disks = Choice("disk_radius", smallest, "world units under the metric", why)

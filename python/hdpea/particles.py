@@ -129,7 +129,7 @@ def spread_particles(
     options = options or ParticleOptions()
     with core_errors_translated():
         seeds = _core.farthest_point_sampling(coordinates, count, options.seed % len(coordinates))
-        cells, _ = restricted_cells(coordinates[seeds], AREA_DISK_RADIUS)
+        cells, _ = restricted_cells(coordinates[seeds], bases[seeds], AREA_DISK_RADIUS)
         squared_width = KERNEL_WIDTH**2 * float(cells.cell_areas.sum()) / count
         cloud = _Cloud(coordinates, bases, neighbors)
         nearest = torch.from_numpy(seeds)  # (m,)

@@ -155,7 +155,7 @@ def _mesh_of(surface: Surface, report: Report, progress: ProgressCallback | None
             )
         with report.clock.stage("meshing"):
             tell(progress, "meshing", 0)
-            mesh = extract_mesh(particles, surface, options.meshing)
+            mesh = extract_mesh(particles, bases, surface, options.meshing)
             tell(progress, "meshing", 1)
         missed = _budget_missed(mesh, options)
         if abs(missed - 1) <= BUDGET_TOLERANCE:

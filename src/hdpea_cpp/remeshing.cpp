@@ -6,6 +6,7 @@
 #include <CGAL/Polygon_mesh_processing/orient_polygon_soup.h>
 #include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
 #include <CGAL/Polygon_mesh_processing/remesh.h>
+#include <CGAL/Polygon_mesh_processing/shape_predicates.h>
 #include <CGAL/Surface_mesh.h>
 
 #include <algorithm>
@@ -64,6 +65,14 @@ void mark_border_corners(const SurfaceMesh& mesh, double sharp_angle,
   }
 }
 
+/// A face without area has no normal, so its edges are not sharp; as a patch of its own it would stop CGAL.
+void unmark_degenerate_faces(const SurfaceMesh& mesh, SurfaceMesh::Property_map<SurfaceMesh::Edge_index, bool>& sharp) {
+  for (const auto f : mesh.faces()) {
+    if (!pmp::is_degenerate_triangle_face(f, mesh)) continue;
+    for (const auto h : mesh.halfedges_around_face(mesh.halfedge(f))) sharp[mesh.edge(h)] = false;
+  }
+}
+
 TriangleMesh from_cgal(SurfaceMesh& mesh) {
   mesh.collect_garbage();
   TriangleMesh result{Points(mesh.number_of_vertices(), 3), Faces(mesh.number_of_faces(), 3)};
@@ -89,6 +98,7 @@ TriangleMesh remesh_isotropically(const PointsRef& vertices, const FacesRef& fac
   SurfaceMesh mesh = to_cgal(vertices, faces);
   auto sharp = mesh.add_property_map<SurfaceMesh::Edge_index, bool>("e:sharp", false).first;
   pmp::detect_sharp_edges(mesh, options.sharp_angle, sharp);
+  unmark_degenerate_faces(mesh, sharp);
   auto corner = mesh.add_property_map<SurfaceMesh::Vertex_index, bool>("v:corner", false).first;
   mark_border_corners(mesh, options.sharp_angle, corner);
   pmp::isotropic_remeshing(mesh.faces(), options.edge_length, mesh,
