@@ -17,6 +17,7 @@ from hdpea.options import MeshingOptions
 from hdpea.particles import Particles
 from hdpea.report import Choice
 from hdpea.surface import Surface
+from hdpea.triangles import mesh_area
 
 DISK_RADIUS = 1.8
 """Radius of the disks in mean distances of the particles in R^d."""
@@ -96,7 +97,7 @@ def _fill_holes(
     elif options.fill_holes is not None:
         size = frame.length_to_unit(options.fill_holes)
     else:
-        size = HOLES_FILLED * float(np.sqrt(_area(vertices, extracted.faces) / len(vertices)))
+        size = HOLES_FILLED * float(np.sqrt(mesh_area(vertices, extracted.faces) / len(vertices)))
         why = f"{HOLES_FILLED:g} spacings of the vertices"
         choices = (Choice("fill_holes", size * frame.diagonal, "world units", why),)
     filled = _core.fill_holes(vertices, extracted.faces, size)
@@ -106,8 +107,3 @@ def _fill_holes(
     statistics["holes_filled"] = filled.filled
     statistics["holes_left"] = filled.left
     return Mesh(filled.vertices, filled.faces, statistics, choices)
-
-
-def _area(vertices: NDArray[np.float64], faces: NDArray[np.int64]) -> float:
-    a, b, c = (vertices[faces[:, corner]] for corner in range(3))
-    return float(np.linalg.norm(np.cross(b - a, c - a), axis=1).sum() / 2)

@@ -105,7 +105,7 @@ def oriented_surface(
         orientation = orient(cloud, options.orient, towards, of_phase(progress, "normals"))
         if options.orient == "auto":
             choices += (Choice("orient", orientation.way, "", orientation.why),)
-        consistency = cloud.consistency()
+        consistency = cloud.consistency
     tell(progress, "normals", 1)
     surface = Surface.of(frame, points, orientation.normals, neighbors)
     return OrientedSurface(surface, int((~usable).sum()), consistency, orientation.way != "file", choices)

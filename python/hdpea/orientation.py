@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -44,8 +45,9 @@ class Unoriented:
     given: Vectors
     neighbors: NDArray[np.int64]
 
+    @cached_property
     def consistency(self) -> float | None:
-        """Return the share of neighbours whose given normals agree on the side; None if none is given."""
+        """The share of neighbours whose given normals agree on the side; None if none is given."""
         if not self.given.any():
             return None
         return _core.orientation_consistency(self.points, self.given, self.neighbors)
@@ -102,7 +104,7 @@ def orient(
 
 
 def _orient_as_fits(cloud: Unoriented, progress: Callable[[float], bool] | None) -> Orientation:
-    consistency = cloud.consistency()
+    consistency = cloud.consistency
     if consistency is not None and consistency >= TRUSTED_CONSISTENCY:
         return Orientation(by_file(cloud), "file", f"{consistency:.0%} of neighbours agree on the side")
     ways = {"wnnc": by_winding_number(cloud, progress), "mst": by_spanning_tree(cloud)}

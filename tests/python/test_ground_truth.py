@@ -12,11 +12,12 @@ from analytic import SURFACES, TORUS, Analytic, Array, Mesh
 from shapes import TETRAHEDRON_FACES, tetrahedron
 
 from hdpea import _core
-from hdpea.dataset.ground_truth import EmbeddedMesh, area, embed_mesh, vertex_normals
+from hdpea.dataset.ground_truth import EmbeddedMesh, embed_mesh, vertex_normals
 from hdpea.dataset.options import GroundTruthOptions
 from hdpea.dataset.quality import stretches
 from hdpea.errors import CannotReconstruct, UsageError
 from hdpea.frame import UnitFrame
+from hdpea.triangles import mesh_area
 
 VERTICES = {"torus": 2500, "ellipsoid": 3000, "cylinder": 1500, "saddle": 1500, "waves": 2000}
 """For which the curvature radius is a small part of the radii of curvature, and the test is quick."""
@@ -52,7 +53,7 @@ def case(name: str, tessellation: str) -> Case:
     surface, options = SURFACES[name], GroundTruthOptions(vertices=VERTICES[name])
     vertices, faces = surface.mesh(tessellation)
     mesh = embed_mesh(vertices, faces, options)
-    return Case(surface, options, mesh, (area(mesh.frame.to_unit(vertices), faces) / options.vertices) ** 0.5)
+    return Case(surface, options, mesh, (mesh_area(mesh.frame.to_unit(vertices), faces) / options.vertices) ** 0.5)
 
 
 def inner(name: str, points: Array) -> Array:
@@ -192,4 +193,4 @@ def test_normals_of_vertices_are_means_by_area() -> None:
     true = vertices / [1, 0.36, 0.16]
     true /= np.linalg.norm(true, axis=1, keepdims=True)
     assert np.einsum("vc,vc->v", normals, true).min() > 0.99
-    assert area(vertices, faces) == pytest.approx(5.39, rel=0.002)
+    assert mesh_area(vertices, faces) == pytest.approx(5.39, rel=0.002)

@@ -14,6 +14,7 @@ from hdpea.dataset.sampling import sample_surface
 from hdpea.errors import CannotReconstruct, core_errors_translated
 from hdpea.frame import UnitFrame
 from hdpea.progress import ProgressCallback, of_phase, tell
+from hdpea.triangles import area_vectors, mesh_area
 
 CURVATURE_SAMPLES = 100_000
 """Points of the surface whose normals curvature is fitted to."""
@@ -107,7 +108,7 @@ def embed_mesh(
     options = options or GroundTruthOptions()
     frame = UnitFrame.around(vertices_in_world)
     given = frame.to_unit(vertices_in_world)
-    total = area(given, faces)
+    total = mesh_area(given, faces)
     if total < LEAST_AREA:
         raise CannotReconstruct("The mesh has no area.", "Its faces are degenerate.")
     spacing = float(np.sqrt(total / options.vertices))
@@ -148,20 +149,10 @@ def _curvature_at(
     return curvature
 
 
-def area(vertices: NDArray[np.float64], faces: NDArray[np.int64]) -> float:
-    """Return the area of a mesh."""
-    return float(np.linalg.norm(_doubled_area_vectors(vertices, faces), axis=1).sum() / 2)
-
-
 def vertex_normals(vertices: NDArray[np.float64], faces: NDArray[np.int64]) -> NDArray[np.float64]:
     """Return unit normals (v, 3) of a mesh's vertices, the mean of their faces' by area."""
-    sums = np.zeros_like(vertices)
+    sums, by_area = np.zeros_like(vertices), area_vectors(vertices, faces)
     for corner in range(3):
-        np.add.at(sums, faces[:, corner], _doubled_area_vectors(vertices, faces))
+        np.add.at(sums, faces[:, corner], by_area)
     lengths = np.linalg.norm(sums, axis=1, keepdims=True)
     return np.where(lengths > 0, sums / np.where(lengths > 0, lengths, 1), np.eye(3)[2])
-
-
-def _doubled_area_vectors(vertices: NDArray[np.float64], faces: NDArray[np.int64]) -> NDArray[np.float64]:
-    corners = vertices[faces]
-    return np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
