@@ -129,7 +129,7 @@ def _tell_of_cloud(report: Report, cloud: PointCloud, oriented: OrientedSurface)
 
 
 def _mesh_of(surface: Surface, report: Report, progress: ProgressCallback | None, embedder: Embedder | None) -> Mesh:
-    """Embed, spread, join and fit; spread again with another count where the budget was missed."""
+    """Embed, spread, join and fit the mesh; where it misses the budget, spread other counts and take the nearest."""
     options, points = report.options, len(surface.points_in_unit)
     vertices = options.meshing.vertices_of(points)
     if vertices > points:
@@ -142,7 +142,7 @@ def _mesh_of(surface: Surface, report: Report, progress: ProgressCallback | None
     with report.clock.stage("embedding"):
         embedded = embed_surface(surface, vertices, options.embedding, progress, embedder)
         bases = tangent_bases(embedded.coordinates, surface.normals, surface.neighbors, points / vertices)
-    count = vertices
+    count, attempts = vertices, list[tuple[float, Mesh]]()
     for _ in range(ATTEMPTS):
         with report.clock.stage("particles"):
             particles = spread_particles(
@@ -158,11 +158,13 @@ def _mesh_of(surface: Surface, report: Report, progress: ProgressCallback | None
             mesh = extract_mesh(particles, bases, surface, options.meshing)
             tell(progress, "meshing", 1)
         missed = _budget_missed(mesh, options)
+        attempts.append((abs(missed - 1), mesh))
         if abs(missed - 1) <= BUDGET_TOLERANCE:
             break
         count = min(round(count * missed), points)
+    _, best = min(attempts, key=lambda attempt: attempt[0])
     with report.clock.stage("refinement"):
-        mesh = refine_mesh(mesh, surface, options.refinement, of_phase(progress, "refinement"))
+        mesh = refine_mesh(best, surface, options.refinement, of_phase(progress, "refinement"))
     report.choices += [*embedded.choices, *mesh.choices]
     report.meshing.update(mesh.statistics)
     return mesh

@@ -24,6 +24,8 @@ using Loop = std::vector<Index>;
 // A hole of so few edges may fold back, unless its patch is a good part of the whole piece: that is its border.
 constexpr std::size_t kFewEdges = 8;
 constexpr double kGoodPart = 0.25;
+// A patch folds back where it turns by more than 135 degrees: the missing half of a thin pin turns by 120.
+constexpr double kFoldedCosine = -0.7;
 
 /// A face of a patch, by positions in the loop; the type that CGAL writes.
 struct PatchFace {
@@ -148,7 +150,7 @@ class HoleFiller {
         sum += inside.dot(outside);
       }
     }
-    return sum < -0.5 * static_cast<double>(loop.size());
+    return sum < kFoldedCosine * static_cast<double>(loop.size());
   }
 
   Eigen::RowVector3d area_vector(Index a, Index b, Index c) const {

@@ -63,10 +63,12 @@ class Extractor {
   }
   bool agrees_with_points(const Triangle& triangle) const;
   bool folds_back(const Triangle& triangle) const;
-  bool touches_enough(const Triangle& triangle) const;
+  bool touches_enough(const Triangle& triangle, bool bridging);
+  bool joins_pieces(Index face, Index vertex);
   /// Counts what is refused for good; returns whether the triangle went in.
   bool try_insert(const Candidate& candidate);
-  void sweep_t12(std::vector<Candidate> waiting);
+  /// Inserts what touches the mesh by enough edges, until nothing more does; returns what is left.
+  std::vector<Candidate> sweep_t12(std::vector<Candidate> waiting, bool bridging);
 
   const CoordinatesRef& coordinates_;
   const PointsRef& normals_;
@@ -97,15 +99,25 @@ bool Extractor::folds_back(const Triangle& triangle) const {
   return false;
 }
 
-bool Extractor::touches_enough(const Triangle& triangle) const {
+bool Extractor::touches_enough(const Triangle& triangle, bool bridging) {
   int shared = 0;
-  Index opposite = -1;
+  Index opposite = -1, face = -1;
   for (int i = 0; i < 3; ++i) {
-    if (mesh_.faces_at(triangle[i], triangle[(i + 1) % 3])[0] < 0) continue;
+    const Index at_edge = mesh_.faces_at(triangle[i], triangle[(i + 1) % 3])[0];
+    if (at_edge < 0) continue;
     ++shared;
     opposite = triangle[(i + 2) % 3];
+    face = at_edge;
   }
-  return shared >= 2 || (shared == 1 && mesh_.faces_of(opposite).empty());
+  if (shared != 1) return shared > 1;
+  return mesh_.faces_of(opposite).empty() || (bridging && joins_pieces(face, opposite));
+}
+
+/// Whether no face of the vertex is in the same edge-connected piece as the face.
+bool Extractor::joins_pieces(Index face, Index vertex) {
+  const Index piece = mesh_.piece_of(face).first;
+  const std::vector<Index>& others = mesh_.faces_of(vertex);
+  return std::none_of(others.begin(), others.end(), [&](Index other) { return mesh_.piece_of(other).first == piece; });
 }
 
 bool Extractor::try_insert(const Candidate& candidate) {
@@ -130,13 +142,13 @@ bool Extractor::try_insert(const Candidate& candidate) {
   return true;
 }
 
-void Extractor::sweep_t12(std::vector<Candidate> waiting) {
+std::vector<Extractor::Candidate> Extractor::sweep_t12(std::vector<Candidate> waiting, bool bridging) {
   bool entered = true;
   while (entered) {
     entered = false;
     std::vector<Candidate> later;
     for (const Candidate& candidate : waiting) {
-      if (!touches_enough(candidate.triangle)) {
+      if (!touches_enough(candidate.triangle, bridging)) {
         later.push_back(candidate);
       } else if (folds_back(candidate.triangle)) {
         ++counts_.refused_fold;
@@ -147,7 +159,7 @@ void Extractor::sweep_t12(std::vector<Candidate> waiting) {
     }
     waiting.swap(later);
   }
-  counts_.refused_loose = static_cast<Index>(waiting.size());
+  return waiting;
 }
 
 void Extractor::insert_candidates(const Candidates& candidates) {
@@ -163,7 +175,10 @@ void Extractor::insert_candidates(const Candidates& candidates) {
   counts_.t3 = static_cast<Index>(t3.size());
   counts_.t12 = static_cast<Index>(t12.size());
   for (const Candidate& candidate : t3) counts_.t3_kept += try_insert(candidate);
-  sweep_t12(std::move(t12));
+  // Bridges come last: on thin parts they join what would be crumbs, elsewhere the surface is whole by then.
+  std::vector<Candidate> loose = sweep_t12(std::move(t12), false);
+  loose = sweep_t12(std::move(loose), true);
+  counts_.refused_loose = static_cast<Index>(loose.size());
 }
 
 ExtractedMesh Extractor::finish() {

@@ -8,8 +8,9 @@ namespace hdpea {
 
 /// What is refused when triangles are chosen from the candidates. Angles are in degrees.
 struct ExtractionOptions {
-  double max_fold = 120;           ///< largest angle between the normals of faces that share an edge, for T12
-  double max_normal_angle = 60;    ///< largest angle between a face's plane and the nearest of its points' planes
+  /// Largest angle between the normals of faces that share an edge, for T12: a pin of three faces around has 120.
+  double max_fold = 135;
+  double max_normal_angle = 75;    ///< largest angle between a face's plane and the nearest of its points' planes
   double max_circumradius = 0;     ///< in R^d, same unit as the coordinates; 0: no limit
   Index min_component_faces = 16;  ///< smaller connected pieces are dropped, but never the largest
 };
@@ -39,7 +40,8 @@ struct ExtractedMesh {
 ///
 /// T3 first, then T12, best first: seen twice before once, then by circumradius in R^d. A T12 triangle must
 /// share two edges with the mesh, or one and bring a vertex that has no face yet; sweeps repeat until none
-/// enters. Then small components are dropped and pinched vertices split. Borders stay open.
+/// enters, and then once more with those that share one edge and reach a vertex of another piece: on parts so
+/// thin that few cells agree, they join the fragments. Then small components are dropped and pinched vertices split. Borders stay open.
 ///
 /// @param coordinates  (n, d) seeds; their first three columns are positions in R^3
 /// @param normals      (n, 3) unit; their signs only decide which side of a whole component is out

@@ -77,6 +77,37 @@ TEST(HoleFilling, TheBorderOfAFewFacesIsNoHole) {
   EXPECT_EQ(fill_holes(square.vertices, square.faces, std::numeric_limits<double>::infinity()).filled, 1);
 }
 
+/// A closed roof, 2 wide and 8 long, that rises at `slope` on both sides of its ridge.
+shapes::Mesh roof(double slope) {
+  constexpr Index kRows = 9;
+  shapes::Mesh mesh{Points(3 * kRows, 3), Faces(6 * (kRows - 1) + 2, 3)};
+  Index f = 0;
+  for (Index row = 0; row < kRows; ++row) {
+    const double y = static_cast<double>(row);
+    mesh.vertices.middleRows(3 * row, 3) << -1, y, 0, 1, y, 0, 0, y, slope;
+    for (Index corner = 0; row > 0 && corner < 3; ++corner) {
+      const Index a = 3 * row + corner, b = 3 * row + (corner + 1) % 3;
+      mesh.faces.row(f++) << a - 3, a, b;
+      mesh.faces.row(f++) << a - 3, b, b - 3;
+    }
+  }
+  mesh.faces.row(f++) << 0, 1, 2;
+  mesh.faces.row(f++) << 3 * kRows - 3, 3 * kRows - 1, 3 * kRows - 2;
+  return mesh;
+}
+
+TEST(HoleFilling, TheOpenSideOfAPinIsAHoleAndThatOfAFoldIsABorder) {
+  const auto filled_of = [](double slope) {
+    const shapes::Mesh mesh = roof(slope);
+    return fill_holes(mesh.vertices, without(mesh, [](const auto& p) { return p.z() == 0; }), 100);
+  };
+  const FilledMesh pin = filled_of(1.2);  // sides at 50 degrees: a patch turns by 130
+  EXPECT_EQ(pin.filled, 1);
+  EXPECT_TRUE(sound(pin));
+  EXPECT_TRUE(check_mesh(pin.vertices, pin.faces).closed());
+  EXPECT_EQ(filled_of(0.3).filled, 0);  // at 17
+}
+
 TEST(HoleFilling, ZeroFillsNothing) {
   const auto grid = shapes::grid(3, 3);
   const FilledMesh filled = fill_holes(grid.vertices, grid.faces, 0);

@@ -3,8 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <utility>
+#include <vector>
+
 #include "clouds.hpp"
 #include "hdpea_cpp/errors.hpp"
+#include "hdpea_cpp/incremental_manifold.hpp"
 #include "hdpea_cpp/mesh_check.hpp"
 #include "hdpea_cpp/neighbors.hpp"
 #include "hdpea_cpp/tangent_basis.hpp"
@@ -76,6 +80,32 @@ TEST(ManifoldExtraction, StricterLimitsKeepFewerFaces) {
   const ExtractedMesh all = mesh_of(sphere, 0.4), small = mesh_of(sphere, 0.4, strict);
   EXPECT_LT(small.faces.rows(), all.faces.rows());
   EXPECT_GT(small.counts.refused_size, 0);
+}
+
+/// What is made of triangles of a flat zigzag strip, 0 2 4 on one side and 1 3 5 on the other.
+ExtractedMesh mesh_of_strip(const std::vector<std::pair<Triangle, int>>& triangles_and_counts) {
+  Points points(6, 3);
+  for (Index i = 0; i < 6; ++i) points.row(i) << 0.5 * static_cast<double>(i), i % 2 == 0 ? 0 : 0.9, 0;
+  const Index count = static_cast<Index>(triangles_and_counts.size());
+  Candidates candidates{Faces(count, 3), Eigen::VectorXi(count), {}};
+  for (Index t = 0; t < count; ++t) {
+    const auto& [triangle, cells] = triangles_and_counts[t];
+    candidates.triangles.row(t) << triangle[0], triangle[1], triangle[2];
+    candidates.counts(t) = cells;
+  }
+  return extract_manifold(points, Eigen::RowVector3d::UnitZ().replicate(6, 1), candidates, {});
+}
+
+TEST(ManifoldExtraction, ABridgeJoinsTwoPieces) {
+  const ExtractedMesh mesh = mesh_of_strip({{{0, 1, 2}, 3}, {{1, 2, 3}, 1}, {{2, 3, 4}, 1}, {{3, 4, 5}, 3}});
+  EXPECT_EQ(mesh.faces.rows(), 4);
+  EXPECT_EQ(mesh.sources.size(), 6);  // nothing is pinched: they share edges
+}
+
+TEST(ManifoldExtraction, NoBridgeJoinsAPieceToItself) {
+  const ExtractedMesh mesh = mesh_of_strip({{{0, 1, 2}, 3}, {{1, 2, 3}, 3}, {{2, 3, 4}, 3}, {{0, 1, 4}, 1}});
+  EXPECT_EQ(mesh.counts.refused_loose, 1);
+  EXPECT_EQ(mesh.faces.rows(), 3);
 }
 
 TEST(ManifoldExtraction, AccountsForEveryCandidate) {

@@ -5,15 +5,17 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
+from typing import Any
 
 import clouds
 import numpy as np
 import pytest
 from made import assert_same_bytes, cloud_of, mesh_of, options
 
-from hdpea import reconstruct
+from hdpea import reconstruct, reconstruction
 from hdpea.errors import CannotReconstruct, Interrupted, UnreadableInput, UsageError
 from hdpea.options import MeshingOptions, Options
+from hdpea.particles import Particles, spread_particles
 from hdpea.reconstruction import PHASES
 
 
@@ -134,6 +136,18 @@ def test_what_is_given_is_not_chosen() -> None:
     told = mesh_of("torus", fill_holes=None).report.choices
     assert "vertices" not in {choice.name for choice in told}
     assert "normal_neighbors" not in {choice.name for choice in told}
+
+
+def test_of_attempts_that_all_miss_the_budget_the_nearest_counts(monkeypatch: pytest.MonkeyPatch) -> None:
+    counts = iter((330, 206, 260))
+
+    def spread_other_count(coordinates: Any, bases: Any, neighbors: Any, _: int, **options: Any) -> Particles:
+        return spread_particles(coordinates, bases, neighbors, next(counts), **options)
+
+    monkeypatch.setattr(reconstruction, "spread_particles", spread_other_count)
+    made = reconstruct(*clouds.sphere(2000), Options(meshing=MeshingOptions(vertices=200)))
+    assert len(made.vertices) == 206
+    assert made.report.missed == ["The budget was missed by 3.0%."]
 
 
 @pytest.mark.parametrize("budget", [MeshingOptions(vertices=301), MeshingOptions(faces=700)])
