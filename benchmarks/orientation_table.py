@@ -1,18 +1,17 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """How well normals are estimated and oriented, by every way of orienting them.
 
-    python benchmarks/orientation_table.py [--meshes bull,trex]
+    python benchmarks/orientation_table.py [--meshes bull,trex] [--cloud FILE --picture DIR]
 
 Each mesh of a folder is sampled as `val_table.py` does, and scanned by a simulated sensor; normals are estimated from
-the points, oriented, and compared with the true ones. Also times every way on scans as they come from scanners, whose
-true normals nobody knows.
+the points, oriented, and compared with the true ones. Also times every way on clouds as they come from scanners, whose
+true normals nobody knows: look at the pictures.
 Prints Markdown. Needs the `bench` dependency group and embreex (`make bench-setup` has both).
 """
 
 from __future__ import annotations
 
 import time
-import zlib
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
@@ -20,7 +19,7 @@ from pathlib import Path
 import click
 import numpy as np
 from numpy.typing import NDArray
-from val_table import POINTS, ROOT, load_metrics, read_mesh
+from val_table import POINTS, ROOT, Sampled, load_metrics, meshes_of
 
 from hdpea.dataset.options import ScanOptions
 from hdpea.dataset.scanning import scan_surface
@@ -28,8 +27,12 @@ from hdpea.dataset.surface_file import read_surface
 from hdpea.frame import UnitFrame
 from hdpea.normals import oriented_surface
 from hdpea.options import NormalOptions
+from hdpea.outputs import replacing
+from hdpea.picture import BACK, FRONT, load_pyvista
 from hdpea.position import Position
 from hdpea.reading import read_points
+from hdpea.reading.cloud import cleaned
+from hdpea.viewpoint import choose_view_of_points
 
 Array = NDArray[np.float64]
 
@@ -38,6 +41,9 @@ NOISE = 0.003
 
 VIEWS = 6
 """Places from which a mesh is scanned: few, and all above it, so that there are holes."""
+
+POINT_SIZE = 4
+"""Pixels: enough to hide the far side of a scan in a panel of 700."""
 
 WAYS = ("auto", "wnnc", "mst", "viewpoint")
 
@@ -107,37 +113,76 @@ def print_rows(condition: str, clouds: dict[str, Cloud]) -> None:
         click.echo(f"| {' | '.join(row)} |")
 
 
-def print_scans(folder: Path) -> None:
-    """Print how long each way takes on real scans; a viewpoint far above them stands for the sensor."""
-    click.echo("\n| scan | points | " + " | ".join(f"{way}, s" for way in WAYS) + " |")
+def print_clouds(paths: list[Path], pictures: Path | None) -> None:
+    """Print how long each way takes on raw clouds; a viewpoint far above them stands for the sensor."""
+    click.echo("\n| cloud | points | " + " | ".join(f"{way}, s" for way in WAYS) + " |")
     click.echo("|---" * (2 + len(WAYS)) + "|")
-    for name in ("bunny_range_scans", "dining_room_fragment"):
-        points = read_points(folder / f"{name}.ply").points
+    for path in paths:
+        points = cleaned(read_points(path)).points
         above = Position(*(points.max(axis=0) + 10 * np.ptp(points, axis=0)).tolist())
-        times = []
+        times, normals = [], {}
         for way in WAYS:
             options = NormalOptions(normals="estimate", orient=way, viewpoint=above if way == "viewpoint" else None)
             start = time.perf_counter()
-            oriented_surface(points, None, options)
+            normals[way] = oriented_surface(points, None, options).surface.normals
             times.append(f"{time.perf_counter() - start:.1f}")
-        click.echo(f"| {name} | {len(points):,} | {' | '.join(times)} |")
+        click.echo(f"| {path.stem} | {len(points):,} | {' | '.join(times)} |")
+        if pictures is not None:
+            draw_sides(pictures / f"{path.stem}.png", points, normals)
+
+
+def draw_sides(path: Path, points: Array, normals: dict[str, Array]) -> None:
+    """Draw a panel for each way: points that face the eye in one colour, those that turn their back in another."""
+    pyvista = load_pyvista()
+    view_from_world = choose_view_of_points(points, normals["auto"])
+    in_view = UnitFrame.around(points).to_unit(points) @ view_from_world.T
+    plotter = pyvista.Plotter(off_screen=True, shape=(1, len(normals)), window_size=[700 * len(normals), 700])
+    plotter.background_color = pyvista.Color("white")
+    for column, (way, of_way) in enumerate(normals.items()):
+        plotter.subplot(0, column)
+        facing = (of_way @ view_from_world.T)[:, 2] > 0
+        for side, color in ((facing, FRONT), (~facing, BACK)):
+            if side.any():
+                plotter.add_points(in_view[side], color=color, point_size=POINT_SIZE, lighting=False)
+        plotter.add_text(way, font_size=12, color="black")
+        plotter.camera_position = [(0, 0, 2), (0, 0, 0), (0, 1, 0)]
+        plotter.camera.parallel_projection = True
+        plotter.camera.parallel_scale = 0.45
+    with replacing(path) as partial:
+        plotter.screenshot(partial)
+    plotter.close()
 
 
 @click.command()
 @click.argument("folder", type=click.Path(exists=True, path_type=Path), default=ROOT / "../shared/data/meshes/val")
 @click.argument("baselines", type=click.Path(exists=True, path_type=Path), default=ROOT / "../shared/baselines")
-@click.argument("scans", type=click.Path(exists=True, path_type=Path), default=ROOT / "../shared/data/clouds")
 @click.option("--meshes", help="only these, by name: bull,trex")
-def main(*, folder: Path, baselines: Path, scans: Path, meshes: str | None) -> None:
-    """Orient the samples of the meshes of FOLDER; time the SCANS."""
-    paths = sorted(path for path in folder.glob("*.ply") if not meshes or path.stem in meshes.split(","))
-    if not paths:
-        raise click.UsageError(f"no such meshes in {folder}")
+@click.option("--cloud", "clouds", multiple=True, type=click.Path(exists=True, path_type=Path), help="a raw cloud")
+@click.option("--picture", "pictures", type=click.Path(path_type=Path), help="folder for a picture of each raw cloud")
+@click.option("--only-clouds", is_flag=True, help="leave out the meshes")
+def main(
+    *,
+    folder: Path,
+    baselines: Path,
+    meshes: str | None,
+    clouds: tuple[Path, ...],
+    pictures: Path | None,
+    only_clouds: bool,
+) -> None:
+    """Orient the samples of the meshes of FOLDER, and raw clouds."""
+    if not only_clouds:
+        print_meshes(folder, baselines, meshes)
+    if pictures is not None:
+        pictures.mkdir(parents=True, exist_ok=True)
+    print_clouds(list(clouds), pictures)
+
+
+def print_meshes(folder: Path, baselines: Path, meshes: str | None) -> None:
+    """Print how well each way does on every kind of cloud made of the meshes."""
     metrics = load_metrics(baselines)
-    clean, seeds = {}, {path.stem: zlib.crc32(path.stem.encode()) % 100_000 for path in paths}
-    for path in paths:
-        truth = metrics.GroundTruth(*read_mesh(path), seed=seeds[path.stem])
-        clean[path.stem] = Cloud(*metrics.sample(truth.V, truth.F, POINTS, seeds[path.stem]))
+    sampled = {path.stem: Sampled.of(path, metrics) for path in meshes_of(folder, meshes)}
+    clean = {name: Cloud(each.points, each.normals) for name, each in sampled.items()}
+    seeds = {name: each.seed for name, each in sampled.items()}
     conditions: dict[str, Callable[[str], Cloud]] = {
         "clean": lambda name: clean[name],
         f"{NOISE:.1%} noise": lambda name: noisy(clean[name], seeds[name]),
@@ -148,7 +193,6 @@ def main(*, folder: Path, baselines: Path, scans: Path, meshes: str | None) -> N
     click.echo("|---|---|---|---|---|---|")
     for condition, made in conditions.items():
         print_rows(condition, {name: made(name) for name in clean})
-    print_scans(scans)
 
 
 if __name__ == "__main__":

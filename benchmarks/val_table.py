@@ -71,16 +71,40 @@ def read_mesh(path: Path) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
     return vertices, inverse.reshape(-1)[np.asarray(mesh.faces)]
 
 
+def meshes_of(folder: Path, names: str | None) -> list[Path]:
+    """Return the meshes of a folder, or those of these names, joined by commas."""
+    paths = sorted(path for path in folder.glob("*.ply") if not names or path.stem in names.split(","))
+    if not paths:
+        raise click.UsageError(f"no such meshes in {folder}")
+    return paths
+
+
+@dataclass(frozen=True)
+class Sampled:
+    """A mesh as `metrics.py` holds it, and points of it with their true normals; the seed is made of its name."""
+
+    truth: Any
+    points: NDArray[np.float64]
+    normals: NDArray[np.float64]
+    seed: int
+
+    @classmethod
+    def of(cls, path: Path, metrics: ModuleType) -> Sampled:
+        """Read a mesh and sample it."""
+        seed = zlib.crc32(path.stem.encode()) % 100_000
+        truth = metrics.GroundTruth(*read_mesh(path), seed=seed)
+        return cls(truth, *metrics.sample(truth.V, truth.F, POINTS, seed), seed)
+
+
 def run_mesh(task: Task) -> Row:
     """Sample, reconstruct and score one mesh."""
     name, metrics = task.path.stem, load_metrics(task.baselines)
-    seed = zlib.crc32(name.encode()) % 100_000
-    truth = metrics.GroundTruth(*read_mesh(task.path), seed=seed)
-    points, normals = metrics.sample(truth.V, truth.F, POINTS, seed)
+    sampled = Sampled.of(task.path, metrics)
+    truth = sampled.truth
 
     embedder = oracle_embedder(truth.V, truth.F) if task.oracle else None
     start = time.perf_counter()
-    result = reconstruct(points, normals, task.options, embedder=embedder)
+    result = reconstruct(sampled.points, sampled.normals, task.options, embedder=embedder)
     seconds = time.perf_counter() - start
     if task.save:
         write_mesh(task.save / f"{name}.ply", result.vertices, result.faces)
@@ -88,7 +112,7 @@ def run_mesh(task: Task) -> Row:
             draw_mesh(task.save / f"{name}.png", result.vertices, result.faces)
 
     row: Row = {"mesh": name, "target": task.options.meshing.vertices, "peer": OURS, "status": "ok"}
-    row |= metrics.evaluate(result.vertices, result.faces, truth, seed)
+    row |= metrics.evaluate(result.vertices, result.faces, truth, sampled.seed)
     row["manifold"] = int(_core.check_mesh(result.vertices, result.faces).manifold)
     row["T3"] = result.report.meshing["t3_kept"] / len(result.faces)
     return row | {"seconds": seconds}
@@ -193,9 +217,7 @@ def main(
     picture: bool,
 ) -> None:
     """Reconstruct the meshes of FOLDER from samples; print the scores beside those in BASELINES."""
-    paths = sorted(path for path in folder.glob("*.ply") if not meshes or path.stem in meshes.split(","))
-    if not paths:
-        raise click.UsageError(f"no such meshes in {folder}")
+    paths = meshes_of(folder, meshes)
     if save:
         save.mkdir(parents=True, exist_ok=True)
     oracle = embedding == ORACLE
