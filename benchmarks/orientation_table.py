@@ -23,12 +23,13 @@ from val_table import POINTS, ROOT, Sampled, load_metrics, meshes_of
 
 from hdpea.dataset.options import ScanOptions
 from hdpea.dataset.scanning import scan_surface
+from hdpea.dataset.showing import PANEL, look_at, point_size
 from hdpea.dataset.surface_file import read_surface
 from hdpea.frame import UnitFrame
 from hdpea.normals import oriented_surface
 from hdpea.options import NormalOptions
 from hdpea.outputs import replacing
-from hdpea.picture import BACK, FRONT, load_pyvista
+from hdpea.picture import DOTS, FRONT, load_pyvista
 from hdpea.position import Position
 from hdpea.reading import read_points
 from hdpea.reading.cloud import cleaned
@@ -41,9 +42,6 @@ NOISE = 0.003
 
 VIEWS = 6
 """Places from which a mesh is scanned: few, and all above it, so that there are holes."""
-
-POINT_SIZE = 4
-"""Pixels: enough to hide the far side of a scan in a panel of 700."""
 
 WAYS = ("auto", "wnnc", "mst", "viewpoint")
 
@@ -136,18 +134,18 @@ def draw_sides(path: Path, points: Array, normals: dict[str, Array]) -> None:
     pyvista = load_pyvista()
     view_from_world = choose_view_of_points(points, normals["auto"])
     in_view = UnitFrame.around(points).to_unit(points) @ view_from_world.T
-    plotter = pyvista.Plotter(off_screen=True, shape=(1, len(normals)), window_size=[700 * len(normals), 700])
+    plotter = pyvista.Plotter(off_screen=True, shape=(1, len(normals)), window_size=[PANEL[0] * len(normals), PANEL[1]])
     plotter.background_color = pyvista.Color("white")
     for column, (way, of_way) in enumerate(normals.items()):
         plotter.subplot(0, column)
         facing = (of_way @ view_from_world.T)[:, 2] > 0
-        for side, color in ((facing, FRONT), (~facing, BACK)):
+        for side, color in ((facing, FRONT), (~facing, DOTS)):
             if side.any():
-                plotter.add_points(in_view[side], color=color, point_size=POINT_SIZE, lighting=False)
+                # Spheres, which hide what is behind them.
+                size = point_size(len(points) // 2)
+                plotter.add_points(in_view[side], color=color, point_size=size, render_points_as_spheres=True)
         plotter.add_text(way, font_size=12, color="black")
-        plotter.camera_position = [(0, 0, 2), (0, 0, 0), (0, 1, 0)]
-        plotter.camera.parallel_projection = True
-        plotter.camera.parallel_scale = 0.45
+        look_at(plotter, in_view)
     with replacing(path) as partial:
         plotter.screenshot(partial)
     plotter.close()

@@ -59,7 +59,7 @@ def draw_sample(path: Path, sample: Sample, options: GroundTruthOptions | None =
         off_screen=True, shape=(1, len(panels)), window_size=[PANEL[0] * len(panels), PANEL[1]], border=False
     )
     plotter.background_color = pyvista.Color("white")
-    size = _point_size(int(facing.sum()))
+    size = point_size(int(facing.sum()))
     for column, colors in enumerate(panels):
         plotter.subplot(0, column)
         # Points hide nothing behind them: those of the far side are left out.
@@ -71,7 +71,7 @@ def draw_sample(path: Path, sample: Sample, options: GroundTruthOptions | None =
             render_points_as_spheres=True,
             lighting=False,
         )
-        _look_at(plotter, points)
+        look_at(plotter, points)
     direction2 = np.cross(sample.normals, sample.direction1) @ view_from_unit.T
     _add_strokes(plotter, pyvista, points, direction2, ratio, np.flatnonzero(facing))
     with replacing(path) as partial:
@@ -109,12 +109,13 @@ def _bytes(shares: NDArray[Any]) -> Colors:
     return colors
 
 
-def _point_size(points: int) -> float:
+def point_size(points: int) -> float:
     """Return the width in pixels at which so many random points leave few gaps in a third of their panel."""
     return float(np.clip(2.5 * (PANEL[0] * PANEL[1] / 3 / max(points, 1)) ** 0.5, 2, 40))
 
 
-def _look_at(plotter: Any, points: NDArray[np.float64]) -> None:
+def look_at(plotter: Any, points: NDArray[np.float64]) -> None:
+    """Point the camera of the current panel down the z axis at points (n, 3), so that they fill it."""
     low, high = points.min(axis=0), points.max(axis=0)
     (x, y, z), (width, height, _) = (low + high) / 2, high - low
     plotter.camera_position = [(x, y, z + 2), (x, y, z), (0, 1, 0)]
