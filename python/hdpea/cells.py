@@ -62,7 +62,9 @@ def _planes(
     squared = distances**2
     in_plane = np.einsum("mbi,mki->mkb", bases, offsets)
     same_sheet = (in_plane**2).sum(axis=2) >= (1 - MAX_SLOPE**2) * squared
-    weights = np.exp(-squared / squared.mean(axis=1, keepdims=True)) * same_sheet
+    # Where points lie in heaps, seven particles may be in one place.
+    means = np.maximum(squared.mean(axis=1, keepdims=True), np.finfo(float).tiny)
+    weights = np.exp(-squared / means) * same_sheet
     covariances = np.einsum("mk,mki,mkj->mij", weights, offsets, offsets)
     covariances += 1e-3 * squared.mean() * np.einsum("mbi,mbj->mij", bases, bases)
     vectors = np.linalg.eigh(covariances).eigenvectors
