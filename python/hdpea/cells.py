@@ -9,18 +9,18 @@ from numpy.typing import NDArray
 from hdpea import _core
 
 CELL_NEIGHBORS = 40
-"""Nearest particles whose bisectors cut a cell: enough for disks of up to two mean distances."""
+"""Nearest particles whose bisectors cut a cell: enough at borders, too, where half a disk is empty."""
 
 
-PLANE_NEIGHBORS = 6
-"""Nearest particles that a particle's plane goes through: those that its cell meets, in an even spread."""
+PLANE_NEIGHBORS = 7
+"""Nearest particles that a particle's plane goes through: those that its cell meets in an even spread, and one more."""
 
 SPARSE_NEIGHBOR = 2
 """Index of the neighbour whose distance widens a disk where it is beyond the mean spacing: the third, which particles
 at a border have, too."""
 
 
-MAX_SLOPE = 0.85
+MAX_SLOPE = 0.95
 """Sine of the steepest way to them from the cloud's plane there: what is steeper lies on another sheet."""
 
 
@@ -56,7 +56,7 @@ def _planes(
 ) -> NDArray[np.float64]:
     """Return orthonormal bases (m, 2, d) of the planes of the `offsets` (m, k, d) to the neighbours, by PCA.
 
-    Weights fall with the distance, so that a seventh neighbour as near as the sixth makes little difference; the
+    Weights fall with the distance, so that an eighth neighbour as near as the seventh makes little difference; the
     cloud's own planes, `bases` (m, 2, d), have next to none, and stand in where no neighbour is of the same sheet.
     """
     squared = distances**2
