@@ -29,6 +29,7 @@ def test_glyphs_are_long_along_the_smaller_curvature(tensors: CurvatureTensors) 
     glyphs = glyphs_of(tensors, 500)
     lengths = np.linalg.norm(glyphs.axes, axis=2)
     assert lengths.shape == (500, 3)
+    assert glyphs.most >= 1.5
     assert (lengths[:, 0] <= lengths[:, 1] * (1 + 1e-9)).all()
     np.testing.assert_allclose(lengths[:, 0] * lengths[:, 1], glyphs.radius**2)
     corner = glyphs.axes / lengths[:, :, None]

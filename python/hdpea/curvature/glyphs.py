@@ -19,14 +19,22 @@ Rows = NDArray[np.float64]
 CANDIDATES = 50_000
 """Points among which glyphs are placed: enough for any picture, and quickly looked through."""
 
-FILLING = 0.42
-"""Radius of a round glyph in distances of neighbouring glyphs: they just do not touch."""
+FILLING = 0.5
+"""Radius of a round glyph in distances of neighbouring glyphs: they just touch."""
 
 THICKNESS = 0.3
 """Of a glyph along the normal, in radii of a round one."""
 
+PLATE = 2.0
+"""Radius, in radii of round glyphs, of the disk below each glyph that hides what lies behind the surface."""
+
 LONGEST = 2.5
 """Half length of the longest glyph in the same radii: the colour tells what the shape does not."""
+
+REDDEST = 95
+"""Percentile of the ratios, where determined, from which the colour is red; but at least ``LEAST_RED``."""
+
+LEAST_RED = 1.5
 
 UNDETERMINED = (0.62, 0.62, 0.62)
 """Red, green and blue of a glyph without directions."""
@@ -44,6 +52,8 @@ class Glyphs:
         (m, 3, 3) float64: half axes as rows, along direction 1, direction 2 and the normal.
     colors
         (m, 3) uint8, of the stretching ratio, grey where the directions are not determined.
+    most
+        The stretching ratio from which the colour is red.
     radius
         Of a round glyph.
     frame
@@ -54,6 +64,7 @@ class Glyphs:
     normals: Rows
     axes: Rows
     colors: Colors
+    most: float
     radius: float
     frame: UnitFrame
 
@@ -78,8 +89,10 @@ def glyphs_of(tensors: CurvatureTensors, count: int) -> Glyphs:
     direction1 = np.where(determined[:, None], tensors.direction1[chosen], _tangents(normals))
     half_axes = radius * np.column_stack([1 / length, length, np.full(len(chosen), THICKNESS)])
     frames = np.stack([direction1, np.cross(normals, direction1), normals], axis=1)
-    colors = np.where(determined[:, None], ratio_colors(ratio), np.rint(255 * np.array(UNDETERMINED))).astype(np.uint8)
-    return Glyphs(centres, normals, half_axes[:, :, None] * frames, colors, radius, frame)
+    most = max(LEAST_RED, float(np.percentile(ratio[determined], REDDEST))) if determined.any() else LEAST_RED
+    colored = ratio_colors(ratio, most)
+    colors = np.where(determined[:, None], colored, np.rint(255 * np.array(UNDETERMINED))).astype(np.uint8)
+    return Glyphs(centres, normals, half_axes[:, :, None] * frames, colors, most, radius, frame)
 
 
 def _tangents(normals: Rows) -> Rows:

@@ -10,8 +10,8 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from hdpea.colors import MOST_ANISOTROPIC, RAMP
-from hdpea.curvature.glyphs import UNDETERMINED, glyphs_of
+from hdpea.colors import RAMP
+from hdpea.curvature.glyphs import PLATE, UNDETERMINED, glyphs_of
 from hdpea.curvature.tensors import CurvatureTensors
 from hdpea.outputs import check_output, replacing
 from hdpea.viewpoint import choose_view_of_points
@@ -49,7 +49,7 @@ def write_page(path: Path, tensors: CurvatureTensors, title: str = "curvature") 
         "centres": _rounded(glyphs.centres),
         "axes": _rounded(glyphs.axes.reshape(-1, 9)),
         "colors": glyphs.colors.tolist(),
-        "radius": glyphs.radius,
+        "plate": round(PLATE * glyphs.radius, 5),
         "view": _rounded(view),
     }
     determined = tensors.determined.mean()
@@ -59,8 +59,8 @@ def write_page(path: Path, tensors: CurvatureTensors, title: str = "curvature") 
         "determined": f"{determined:.0%}",
         "ramp": ", ".join(_css(color) for color in RAMP),
         "undetermined": _css(UNDETERMINED),
-        "most": f"{MOST_ANISOTROPIC:g}",
-        "middle": f"{MOST_ANISOTROPIC**0.5:g}",
+        "most": f"{glyphs.most:.2g}",
+        "middle": f"{glyphs.most**0.5:.2g}",
         # The only character that could end the script that the data are part of.
         "scene": json.dumps(scene, separators=(",", ":")).replace("<", "\\u003c"),
     }
