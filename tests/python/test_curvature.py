@@ -96,7 +96,7 @@ def test_what_is_flat_or_round_has_no_directions(options: CurvatureOptions) -> N
 
 def test_jets_meet_noise_with_more_neighbors() -> None:
     points, normals = clouds.torus(8_000)
-    noisy = points + np.random.default_rng(1).normal(0, 0.004, points.shape)
+    noisy = points + np.random.default_rng(1).normal(0, 0.01, points.shape)
     tensors = estimate_curvature(noisy, normals, JET)
     assert tensors.choices[-1].value > 60
     assert np.median(degrees_between(tensors.direction1, TORUS.curvature(points)[1])[tensors.determined]) < 5
@@ -142,7 +142,9 @@ def test_jets_turn_with_the_cloud_and_know_no_order() -> None:
     order = np.random.default_rng(1).permutation(len(points))
     here = estimate_curvature(points, normals, JET)
     there = estimate_curvature(points[order] @ rotation.T, normals[order] @ rotation.T, JET)
-    np.testing.assert_allclose(there.metric, rotation @ here.metric[order] @ rotation.T, rtol=1e-4, atol=1e-6)
+    # The metric is in units of the bounding box, which does not turn with the cloud.
+    np.testing.assert_allclose(there.curvatures, here.curvatures[order], rtol=1e-6, atol=1e-6)
+    np.testing.assert_allclose(degrees_between(there.direction1, here.direction1[order] @ rotation.T), 0, atol=1e-3)
 
 
 @METHODS

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from hdpea.curvature.glyphs import PLATE, Glyphs, glyphs_of
+from hdpea.curvature.glyphs import PLATE, glyphs_of
 from hdpea.curvature.tensors import CurvatureTensors
 from hdpea.outputs import check_output, replacing
 from hdpea.picture import PICTURE_FORMATS, check_drawing, load_pyvista, look_at
@@ -49,17 +49,20 @@ def draw_curvature(path: Path, tensors: CurvatureTensors, size: tuple[int, int] 
     pyvista = load_pyvista()
     glyphs = glyphs_of(tensors, GLYPHS)
     view_from_unit = choose_view_of_points(glyphs.centres, glyphs.normals)
+    # As on the page: the far side would show through the gaps between the disks.
+    facing = (glyphs.normals @ view_from_unit.T)[:, 2] > 0
+    centres, axes = glyphs.centres[facing], glyphs.axes[facing]
     ball = pyvista.Sphere(radius=1, theta_resolution=SIDES, phi_resolution=SIDES // 2 + 1)
     disk = pyvista.Disc(inner=0, outer=PLATE, r_res=1, c_res=SIDES).triangulate()
 
     plotter = pyvista.Plotter(off_screen=True, window_size=list(size), lighting="none")
     plotter.background_color = pyvista.Color("white")
-    vertices, faces = _copies(disk, glyphs.centres, _plates(glyphs))
+    vertices, faces = _copies(disk, centres, _plates(axes, glyphs.radius))
     surface = pyvista.PolyData.from_regular_faces(vertices @ view_from_unit.T, faces)
     plotter.add_mesh(surface, color=SURFACE, ambient=0.45, diffuse=0.55)
-    vertices, faces = _copies(ball, glyphs.centres, glyphs.axes)
+    vertices, faces = _copies(ball, centres, axes)
     ellipsoids = pyvista.PolyData.from_regular_faces(vertices @ view_from_unit.T, faces)
-    colors = np.repeat(glyphs.colors, ball.n_points, axis=0)
+    colors = np.repeat(glyphs.colors[facing], ball.n_points, axis=0)
     plotter.add_mesh(ellipsoids, scalars=colors, rgb=True, smooth_shading=True, ambient=0.35, diffuse=0.75)
     look_at(plotter, glyphs.centres @ view_from_unit.T, size)
     legend = f"stretching ratio: blue 1, grey {glyphs.most**0.5:.2g}, red {glyphs.most:.2g} and more"
@@ -71,10 +74,9 @@ def draw_curvature(path: Path, tensors: CurvatureTensors, size: tuple[int, int] 
     plotter.close()
 
 
-def _plates(glyphs: Glyphs) -> Rows:
-    """Return half axes (m, 3, 3) that take the plane z = 0 to disks as wide as round glyphs."""
-    tangents = glyphs.axes / np.linalg.norm(glyphs.axes, axis=2, keepdims=True)
-    return np.asarray(glyphs.radius * tangents)
+def _plates(axes: Rows, radius: float) -> Rows:
+    """Return half axes (m, 3, 3) of the same directions, all of length `radius`."""
+    return np.asarray(radius * axes / np.linalg.norm(axes, axis=2, keepdims=True))
 
 
 def _copies(shape: Any, centres: Rows, axes: Rows) -> tuple[Rows, NDArray[np.int64]]:
