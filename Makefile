@@ -15,6 +15,8 @@ BUILD_PACKAGES := g++ cmake ninja-build python3-dev python3-venv \
   libcgal-dev libeigen3-dev libnanoflann-dev libtbb-dev libgtest-dev
 # Pictures without a screen, and the scans of the demo.
 DEMO_PACKAGES := libosmesa6 libcgal-demo
+# A browser, to see that pages render.
+TEST_PACKAGES := chromium
 SCANS := /usr/share/doc/libcgal-dev/data.tar.gz
 
 PACKAGE_SOURCES := CMakeLists.txt pyproject.toml $(shell find src python -type f -not -name '*.pyc')
@@ -40,7 +42,7 @@ help:
 debian:
 	@if ! command -v dpkg-query >/dev/null; then \
 	  echo "== Not Debian: please see to it that there are (Debian's names): $(BUILD_PACKAGES)"; exit 0; fi; \
-	missing=$$(for package in $(BUILD_PACKAGES) $(DEMO_PACKAGES); do \
+	missing=$$(for package in $(BUILD_PACKAGES) $(DEMO_PACKAGES) $(TEST_PACKAGES); do \
 	  dpkg-query -W -f='$${Status}' $$package 2>/dev/null | grep -q 'ok installed' || echo $$package; done); \
 	if [ -n "$$missing" ]; then \
 	  echo "== Installing Debian packages:" $$missing; \

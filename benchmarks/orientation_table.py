@@ -23,13 +23,13 @@ from val_table import POINTS, ROOT, Sampled, load_metrics, meshes_of
 
 from hdpea.dataset.options import ScanOptions
 from hdpea.dataset.scanning import scan_surface
-from hdpea.dataset.showing import PANEL, look_at, point_size
+from hdpea.dataset.showing import PANEL
 from hdpea.dataset.surface_file import read_surface
 from hdpea.frame import UnitFrame
 from hdpea.normals import oriented_surface
 from hdpea.options import NormalOptions
 from hdpea.outputs import replacing
-from hdpea.picture import DOTS, FRONT, load_pyvista
+from hdpea.picture import DOTS, FRONT, load_pyvista, look_at, point_size
 from hdpea.position import Position
 from hdpea.reading import read_points
 from hdpea.reading.cloud import cleaned
@@ -142,10 +142,10 @@ def draw_sides(path: Path, points: Array, normals: dict[str, Array]) -> None:
         for side, color in ((facing, FRONT), (~facing, DOTS)):
             if side.any():
                 # Spheres, which hide what is behind them.
-                size = point_size(len(points) // 2)
+                size = point_size(len(points) // 2, PANEL)
                 plotter.add_points(in_view[side], color=color, point_size=size, render_points_as_spheres=True)
         plotter.add_text(way, font_size=12, color="black")
-        look_at(plotter, in_view)
+        look_at(plotter, in_view, PANEL)
     with replacing(path) as partial:
         plotter.screenshot(partial)
     plotter.close()

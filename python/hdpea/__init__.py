@@ -10,6 +10,9 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from hdpea.curvature.estimation import estimate_curvature as estimate_curvature
+    from hdpea.curvature.options import CurvatureOptions as CurvatureOptions
+    from hdpea.curvature.tensors import CurvatureTensors as CurvatureTensors
     from hdpea.embedding import Embedding as Embedding
     from hdpea.embedding import embed_points as embed_points
     from hdpea.options import Options as Options
@@ -18,13 +21,27 @@ if TYPE_CHECKING:
     from hdpea.reconstruction import reconstruct as reconstruct
     from hdpea.writing import write_mesh as write_mesh
 
-__all__ = ["Embedding", "Options", "Reconstruction", "embed_points", "read_points", "reconstruct", "write_mesh"]
+__all__ = [
+    "CurvatureOptions",
+    "CurvatureTensors",
+    "Embedding",
+    "Options",
+    "Reconstruction",
+    "embed_points",
+    "estimate_curvature",
+    "read_points",
+    "reconstruct",
+    "write_mesh",
+]
 
 _HOMES = {
+    "CurvatureOptions": "hdpea.curvature.options",
+    "CurvatureTensors": "hdpea.curvature.tensors",
     "Embedding": "hdpea.embedding",
     "Options": "hdpea.options",
     "Reconstruction": "hdpea.reconstruction",
     "embed_points": "hdpea.embedding",
+    "estimate_curvature": "hdpea.curvature.estimation",
     "read_points": "hdpea.reading",
     "reconstruct": "hdpea.reconstruction",
     "write_mesh": "hdpea.writing",

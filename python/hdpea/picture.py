@@ -10,6 +10,7 @@ from importlib import import_module
 from importlib.util import find_spec
 from pathlib import Path
 from types import ModuleType
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -50,6 +51,20 @@ def load_pyvista() -> ModuleType:
         # Must be said before VTK is imported; it would try a display first.
         os.environ.setdefault("VTK_DEFAULT_OPENGL_WINDOW", "vtkOSOpenGLRenderWindow")
     return import_module("pyvista")
+
+
+def point_size(points: int, window: tuple[int, int]) -> float:
+    """Return the width in pixels at which so many random points leave few gaps in a third of their window."""
+    return float(np.clip(2.5 * (window[0] * window[1] / 3 / max(points, 1)) ** 0.5, 2, 40))
+
+
+def look_at(plotter: Any, points: NDArray[np.float64], window: tuple[int, int]) -> None:
+    """Let the camera look along -z at all of the points (n, 3)."""
+    low, high = points.min(axis=0), points.max(axis=0)
+    (x, y, z), (width, height, _) = (low + high) / 2, high - low
+    plotter.camera_position = [(x, y, z + 2), (x, y, z), (0, 1, 0)]
+    plotter.camera.parallel_projection = True
+    plotter.camera.parallel_scale = MARGIN * max(height, width * window[1] / window[0]) / 2
 
 
 def draw_mesh(
@@ -102,10 +117,7 @@ def draw_mesh(
     )
     if points is not None:
         plotter.add_points((points @ view_from_world.T - center) / scale, color=DOTS, point_size=2)
-    plotter.camera_position = [(0, 0, 2), (0, 0, 0), (0, 1, 0)]
-    width, height, _ = (high - low) / scale
-    plotter.camera.parallel_projection = True
-    plotter.camera.parallel_scale = MARGIN * max(height, width * size[1] / size[0]) / 2
+    look_at(plotter, (in_view - center) / scale, size)
     plotter.add_light(pyvista.Light(position=(-0.7, 1.0, 2.0), light_type="scene light"))
     plotter.enable_anti_aliasing("ssaa")
     with replacing(path) as partial:

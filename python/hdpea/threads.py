@@ -15,12 +15,16 @@ os.environ.setdefault("OMP_WAIT_POLICY", "PASSIVE")
 @contextmanager
 def limited_threads(count: int) -> Iterator[None]:
     """Limit the core and torch to `count` threads meanwhile; 0: no limit."""
+    if count == 0:
+        # Nothing to tell torch, which a run may not need, and takes seconds to load.
+        yield
+        return
     import torch
 
     from hdpea import _core
 
     before = torch.get_num_threads()
-    torch.set_num_threads(count or before)
+    torch.set_num_threads(count)
     _core.set_thread_limit(count)
     try:
         yield

@@ -28,6 +28,7 @@ def test_help_imports_nothing_heavy() -> None:
     for arguments in (
         ["--help"],
         ["reconstruct", "--help"],
+        ["curvature", "--help"],
         ["--version"],
         ["dataset", "--help"],
         *(["dataset", command, "--help"] for command in ("build", "scan", "degrade", "info", "show")),

@@ -32,3 +32,12 @@ def test_a_shape_becomes_a_scan_becomes_a_mesh(tmp_path: Path) -> None:
 def test_the_stages_by_hand_make_a_mesh(tmp_path: Path) -> None:
     assert "2000 faces" in run("stages_by_hand.py", tmp_path / "torus.obj")
     assert len(read_points(tmp_path / "torus.obj").points) == 1_000
+
+
+@pytest.mark.slow
+def test_a_scan_is_coloured_by_curvature(tmp_path: Path) -> None:
+    scan, colored = tmp_path / "torus.ply", tmp_path / "colored.ply"
+    run("shapes.py", "torus", scan, "--points", 3_000)
+    assert "3000 of 3000 points" in run("curvature_of_a_scan.py", scan, colored)
+    assert {"red", "green", "blue", "curvature"} <= set(read_points(colored).attributes)
+    assert colored.with_suffix(".html").exists()

@@ -9,23 +9,19 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from hdpea.colors import MOST_ANISOTROPIC, Colors, as_bytes, ratio_colors
 from hdpea.dataset.options import GroundTruthOptions
 from hdpea.dataset.quality import spacing_of, stretches
 from hdpea.dataset.sample import Sample
 from hdpea.outputs import check_output, replacing
-from hdpea.picture import MARGIN, PICTURE_FORMATS, check_drawing, load_pyvista
+from hdpea.picture import PICTURE_FORMATS, check_drawing, load_pyvista, look_at, point_size
 from hdpea.viewpoint import choose_view_of_points
-
-Colors = NDArray[np.uint8]
 
 STROKES = 600
 """Strokes along the direction of the smaller curvature."""
 
 STROKE_LENGTH = 0.02
 """Of a stroke where the stretches are equal, which draws a dot, to this where they differ most; of the diagonal."""
-
-MOST_ANISOTROPIC = 4.0
-"""Ratio of the stretches from which the colour is red."""
 
 PANEL = (800, 800)
 """Width and height of a panel in pixels."""
@@ -59,7 +55,7 @@ def draw_sample(path: Path, sample: Sample, options: GroundTruthOptions | None =
         off_screen=True, shape=(1, len(panels)), window_size=[PANEL[0] * len(panels), PANEL[1]], border=False
     )
     plotter.background_color = pyvista.Color("white")
-    size = point_size(int(facing.sum()))
+    size = point_size(int(facing.sum()), PANEL)
     for column, colors in enumerate(panels):
         plotter.subplot(0, column)
         # Points hide nothing behind them: those of the far side are left out.
@@ -71,7 +67,7 @@ def draw_sample(path: Path, sample: Sample, options: GroundTruthOptions | None =
             render_points_as_spheres=True,
             lighting=False,
         )
-        look_at(plotter, points)
+        look_at(plotter, points, PANEL)
     direction2 = np.cross(sample.normals, sample.direction1) @ view_from_unit.T
     _add_strokes(plotter, pyvista, points, direction2, ratio, np.flatnonzero(facing))
     with replacing(path) as partial:
@@ -81,7 +77,7 @@ def draw_sample(path: Path, sample: Sample, options: GroundTruthOptions | None =
 
 def normal_colors(normals: NDArray[np.float32]) -> Colors:
     """Return x, y and z of unit normals (n, 3) as red, green and blue (n, 3)."""
-    return _bytes((normals + 1) / 2)
+    return as_bytes((normals + 1) / 2)
 
 
 def psi_colors(psi: NDArray[np.float32]) -> Colors:
@@ -94,33 +90,7 @@ def psi_colors(psi: NDArray[np.float32]) -> Colors:
     axes *= np.sign(axes[np.arange(len(axes)), abs(axes).argmax(axis=1)])[:, None]
     components = centred @ axes[:3].T
     low, high = np.percentile(components, [1, 99], axis=0)
-    return _bytes((components - low) / np.maximum(high - low, 1e-12))
-
-
-def ratio_colors(ratio: NDArray[np.float64]) -> Colors:
-    """Return ratios of stretches (n,) as colours (n, 3): blue where 1, over grey to red where ``MOST_ANISOTROPIC``."""
-    share = (np.log(ratio) / np.log(MOST_ANISOTROPIC)).clip(0, 1)
-    anchors = np.array([[0.23, 0.30, 0.75], [0.87, 0.87, 0.87], [0.71, 0.02, 0.15]])
-    return _bytes(np.column_stack([np.interp(share, [0, 0.5, 1], anchors[:, channel]) for channel in range(3)]))
-
-
-def _bytes(shares: NDArray[Any]) -> Colors:
-    colors: Colors = np.rint(255 * shares.clip(0, 1)).astype(np.uint8)
-    return colors
-
-
-def point_size(points: int) -> float:
-    """Return the width in pixels at which so many random points leave few gaps in a third of their panel."""
-    return float(np.clip(2.5 * (PANEL[0] * PANEL[1] / 3 / max(points, 1)) ** 0.5, 2, 40))
-
-
-def look_at(plotter: Any, points: NDArray[np.float64]) -> None:
-    """Point the camera of the current panel down the z axis at points (n, 3), so that they fill it."""
-    low, high = points.min(axis=0), points.max(axis=0)
-    (x, y, z), (width, height, _) = (low + high) / 2, high - low
-    plotter.camera_position = [(x, y, z + 2), (x, y, z), (0, 1, 0)]
-    plotter.camera.parallel_projection = True
-    plotter.camera.parallel_scale = MARGIN * max(height, width * PANEL[1] / PANEL[0]) / 2
+    return as_bytes((components - low) / np.maximum(high - low, 1e-12))
 
 
 def _add_strokes(

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hdpea import _core
-from hdpea.embedding.embedded import Embedded
+from hdpea.embedding.embedded import Embedded, Metric
 from hdpea.lengths import Length
 from hdpea.options import EmbeddingOptions
 from hdpea.report import Choice
@@ -82,4 +82,5 @@ def embed_directly(
     radius = choose("curvature_radius", options.curvature_radius, CURVATURE_PER_SPACING)
     curvature = _core.estimate_curvature(points, normals, surface.neighbors, radius)
     psi = _core.solve_embedding(points, normals, curvature, soup.triangles, soup.weights, solver, progress)
-    return Embedded(np.hstack([points, psi]), tuple(choices))
+    metric = Metric(options.metric_scale, options.max_stretch)
+    return Embedded(np.hstack([points, psi]), tuple(choices), metric)

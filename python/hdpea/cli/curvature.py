@@ -1,0 +1,98 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""``hdpea curvature``: curvature tensors of a cloud."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import click
+
+from hdpea.cli.parameters import GroupedCommand, GroupedOption, quiet_option, setting_options
+from hdpea.curvature.options import CurvatureOptions
+from hdpea.settings import filled
+
+EPILOG = """\b
+Examples:
+  hdpea curvature scan.ply curvature.ply
+  hdpea curvature scan.ply curvature.csv --method jet
+  hdpea curvature scan.ply curvature.npz --picture glyphs.png --page glyphs.html
+
+\b
+Exit codes: 0 ok, 1 internal error, 2 usage, 3 unreadable input,
+4 cannot reconstruct, 130 interrupted.
+"""
+
+
+@click.command(cls=GroupedCommand, epilog=EPILOG, no_args_is_help=True, short_help="Estimate curvature tensors.")
+@click.argument("source", metavar="IN")
+@click.argument("output", metavar="OUT", type=click.Path(path_type=Path))
+@click.option(
+    "--picture", cls=GroupedOption, type=click.Path(path_type=Path), help="draw the tensors, as PNG; needs no screen"
+)
+@click.option(
+    "--page",
+    cls=GroupedOption,
+    type=click.Path(path_type=Path),
+    help="draw them as an HTML file to turn and zoom, in any browser, offline",
+)
+@quiet_option
+@setting_options("estimation", "normals", "embedding", "run", owner=CurvatureOptions)
+def command(*, source: str, output: Path, picture: Path | None, page: Path | None, quiet: bool, **values: Any) -> None:
+    """Estimate the curvature tensor at each point of the cloud IN.
+
+    OUT is PLY or CSV (a column for each number), NPZ or VTP (an array for each quantity), by its
+    extension: principal directions 1 and 2, of the curvature of larger magnitude and of the other;
+    curvature1 and curvature2 in 1 / length; stretch1, stretch2 and their stretching_ratio; the
+    metric tensor; the normal; and whether the directions are determined. Where the surface is flat
+    or round they are not, and are written as 0. IN is as for reconstruct.
+
+    A curvature from the embedding is a magnitude, within the range that the command tells; those
+    from jets have signs, positive where the surface is convex.
+
+    Lengths are in the units of the file, or in percent of the diagonal of the cloud's bounding box.
+    """
+    options = filled(CurvatureOptions, values)
+    _check_outputs(source, output, picture, page)
+    from hdpea.curvature.estimation import estimate_curvature
+    from hdpea.curvature.writing import write_curvature
+    from hdpea.progress import shown, tell
+    from hdpea.reading import read_points
+
+    with shown(quiet) as progress:
+        tell(progress, "reading", 0.0)
+        cloud = read_points(source)
+        tensors = estimate_curvature(cloud.points, cloud.normals, options, progress, cloud.sensors())
+        tell(progress, "writing", 0.0)
+        write_curvature(output, tensors)
+        if picture:
+            from hdpea.curvature.drawing import draw_curvature
+
+            tell(progress, "picture", 0.0)
+            draw_curvature(picture, tensors)
+        if page:
+            from hdpea.curvature.page import write_page
+
+            tell(progress, "page", 0.0)
+            write_page(page, tensors, title=Path(source).name)
+    if not quiet:
+        from hdpea.curvature.summary import summarize
+
+        click.echo("\n".join([*cloud.notes, *summarize(tensors)]), err=True)
+
+
+def _check_outputs(source: str, output: Path, picture: Path | None, page: Path | None) -> None:
+    from hdpea.curvature.writing import check_curvature_output
+    from hdpea.outputs import check_not_input, check_output
+
+    check_curvature_output(output)
+    check_not_input(output, source)
+    if picture:
+        from hdpea.picture import PICTURE_FORMATS, check_drawing
+
+        check_output(picture, PICTURE_FORMATS)
+        check_drawing()
+    if page:
+        from hdpea.curvature.page import PAGE_FORMATS
+
+        check_output(page, PAGE_FORMATS)

@@ -1,0 +1,88 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A picture of curvature tensors as ellipsoids, drawn without a screen."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hdpea.curvature.glyphs import PLATE, glyphs_of
+from hdpea.curvature.tensors import CurvatureTensors
+from hdpea.outputs import check_output, replacing
+from hdpea.picture import PICTURE_FORMATS, check_drawing, load_pyvista, look_at
+from hdpea.viewpoint import choose_view_of_points
+
+Rows = NDArray[np.float64]
+
+GLYPHS = 4_000
+
+SURFACE = "#f4f4f4"
+"""Colour of the disks below the glyphs."""
+
+SIDES = 12
+"""Of the polygons that round shapes are."""
+
+
+def draw_curvature(path: Path, tensors: CurvatureTensors, size: tuple[int, int] = (1600, 1200)) -> None:
+    """Draw tensors as ellipsoids on the points, coloured by stretching ratio: blue where 1, red where largest.
+
+    Those along the surface's smaller curvature are long; where the directions are not determined they are round and
+    grey (paper, section 4.3).
+
+    Parameters
+    ----------
+    path
+        A PNG file, replaced only once the new one is complete.
+    size
+        Width and height in pixels.
+
+    Raises
+    ------
+    UsageError
+        If nothing can be drawn on this machine, or the file cannot be written.
+    """
+    check_output(path, PICTURE_FORMATS)
+    check_drawing()
+    pyvista = load_pyvista()
+    glyphs = glyphs_of(tensors, GLYPHS)
+    view_from_unit = choose_view_of_points(glyphs.centres, glyphs.normals)
+    # As on the page: the far side would show through the gaps between the disks.
+    facing = (glyphs.normals @ view_from_unit.T)[:, 2] > 0
+    centres, axes = glyphs.centres[facing], glyphs.axes[facing]
+    ball = pyvista.Sphere(radius=1, theta_resolution=SIDES, phi_resolution=SIDES // 2 + 1)
+    disk = pyvista.Disc(inner=0, outer=PLATE, r_res=1, c_res=SIDES).triangulate()
+
+    plotter = pyvista.Plotter(off_screen=True, window_size=list(size), lighting="none")
+    plotter.background_color = pyvista.Color("white")
+    vertices, faces = _copies(disk, centres, _plates(axes, glyphs.radius))
+    surface = pyvista.PolyData.from_regular_faces(vertices @ view_from_unit.T, faces)
+    plotter.add_mesh(surface, color=SURFACE, ambient=0.45, diffuse=0.55)
+    vertices, faces = _copies(ball, centres, axes)
+    ellipsoids = pyvista.PolyData.from_regular_faces(vertices @ view_from_unit.T, faces)
+    colors = np.repeat(glyphs.colors[facing], ball.n_points, axis=0)
+    plotter.add_mesh(ellipsoids, scalars=colors, rgb=True, smooth_shading=True, ambient=0.35, diffuse=0.75)
+    look_at(plotter, glyphs.centres @ view_from_unit.T, size)
+    legend = f"stretching ratio: blue 1, grey {glyphs.most**0.5:.2g}, red {glyphs.most:.2g} and more"
+    plotter.add_text(legend, position="lower_left", color="black", font_size=size[1] // 100)
+    plotter.add_light(pyvista.Light(position=(-0.7, 1.0, 2.0), light_type="scene light"))
+    plotter.enable_anti_aliasing("ssaa")
+    with replacing(path) as partial:
+        plotter.screenshot(partial)
+    plotter.close()
+
+
+def _plates(axes: Rows, radius: float) -> Rows:
+    """Return half axes (m, 3, 3) of the same directions, all of length `radius`."""
+    return np.asarray(radius * axes / np.linalg.norm(axes, axis=2, keepdims=True))
+
+
+def _copies(shape: Any, centres: Rows, axes: Rows) -> tuple[Rows, NDArray[np.int64]]:
+    """Return the vertices (v, 3) and triangles (f, 3) of copies of a pyvista mesh, one in each of the frames."""
+    unit = np.asarray(shape.points, dtype=np.float64)
+    triangles = np.asarray(shape.regular_faces, dtype=np.int64)
+    vertices = centres[:, None] + np.einsum("va,mai->mvi", unit, axes)
+    faces = triangles + len(unit) * np.arange(len(centres))[:, None, None]
+    return vertices.reshape(-1, 3), faces.reshape(-1, 3)

@@ -1,0 +1,120 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""From a cloud to its curvature tensors: principal directions, curvatures, stretches and the metric they make."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hdpea.curvature.from_embedding import estimate_from_embedding
+from hdpea.curvature.from_jets import estimate_from_jets
+from hdpea.curvature.options import CurvatureOptions
+from hdpea.curvature.tensors import CurvatureTensors, Estimate, metric_tensors
+from hdpea.embedding import embed_surface
+from hdpea.embedding.embedded import Metric
+from hdpea.errors import core_errors_translated
+from hdpea.normals import OrientedSurface, oriented_surface
+from hdpea.options import MeshingOptions
+from hdpea.progress import ProgressCallback, tell
+from hdpea.reading.cloud import PointCloud, cleaned, from_arrays
+from hdpea.surface import Surface
+from hdpea.threads import limited_threads
+
+
+def estimate_curvature(
+    points: NDArray[np.float64],
+    normals: NDArray[np.float64] | None = None,
+    options: CurvatureOptions | None = None,
+    progress: ProgressCallback | None = None,
+    sensors: NDArray[np.float64] | None = None,
+) -> CurvatureTensors:
+    """Estimate the curvature tensor at each point of a cloud.
+
+    Parameters
+    ----------
+    points
+        (n, 3) in any unit and frame; what is not finite or occurs twice is dropped.
+    normals
+        (n, 3) of any length and sign; estimated where missing, zero or not finite.
+    options
+        The method, its neighbours, and the options of normals and embedding.
+    progress
+        Called with the phases normals, embedding and curvature, and the fraction done; returning False cancels.
+    sensors
+        (n, 3), from where each point was seen; needed only to orient by viewpoint.
+
+    Raises
+    ------
+    CannotReconstruct
+        If the points are too few, equal or on a line.
+    UsageError
+        If the arrays are not of these shapes, or a viewpoint is asked for and there is none.
+    UnreadableInput
+        If the given normals, or their signs, are insisted on and unusable.
+    Interrupted
+        If `progress` cancelled.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> angle, height = np.random.default_rng(0).random((2, 4000))
+    >>> pipe = np.column_stack([np.cos(2 * np.pi * angle), np.sin(2 * np.pi * angle), 4 * height])
+    >>> tensors = estimate_curvature(pipe)
+    >>> bool(abs(tensors.direction2[:, 2]).min() > 0.9)  # along the pipe
+    True
+    """
+    options = options or CurvatureOptions()
+    with limited_threads(options.threads), core_errors_translated():
+        cloud = cleaned(from_arrays(points, normals, sensors))
+        vertices = MeshingOptions(vertices=options.estimation.vertices).vertices_of(len(cloud.points))
+        per_vertex = len(cloud.points) / vertices
+        oriented = oriented_surface(cloud.points, cloud.normals, options.normals, per_vertex, progress, cloud.sensors())
+        estimate, metric = _estimate(oriented.surface, vertices, options, progress)
+        return _in_world(cloud, oriented, estimate, metric, options.estimation.method == "jet")
+
+
+def _estimate(
+    surface: Surface, vertices: int, options: CurvatureOptions, progress: ProgressCallback | None
+) -> tuple[Estimate, Metric | None]:
+    neighbors = options.estimation.neighbors
+    if options.estimation.method == "jet":
+        tell(progress, "curvature", 0)
+        metric = Metric(options.embedding.metric_scale, options.embedding.max_stretch)
+        return estimate_from_jets(surface, metric, neighbors), metric
+    embedded = embed_surface(surface, vertices, options.embedding, progress)
+    tell(progress, "curvature", 0)
+    return estimate_from_embedding(surface, embedded, neighbors), embedded.metric
+
+
+def _in_world(
+    cloud: PointCloud, oriented: OrientedSurface, estimate: Estimate, metric: Metric | None, signed: bool
+) -> CurvatureTensors:
+    diagonal = oriented.surface.frame.diagonal
+    direction1 = np.where(estimate.determined[:, None], estimate.direction1, 0.0)
+    low, high = (0.0, np.inf) if signed else metric.curvature_range if metric else (np.nan, np.nan)
+    return CurvatureTensors(
+        points=cloud.points,
+        normals=estimate.normals,
+        direction1=direction1,
+        direction2=np.cross(estimate.normals, direction1),
+        stretches=estimate.stretches,
+        curvatures=estimate.curvatures / diagonal,
+        metric=metric_tensors(estimate.normals, estimate.direction1, estimate.stretches),
+        determined=estimate.determined,
+        signed=signed,
+        curvature_range=(low / diagonal, high / diagonal),
+        choices=(*oriented.choices, *estimate.choices),
+        notes=(*cloud.notes, *_notes(estimate)),
+    )
+
+
+def _notes(estimate: Estimate) -> list[str]:
+    unknown = int(np.isnan(estimate.stretches[:, 0]).sum())
+    undetermined = int((~estimate.determined).sum()) - unknown
+    told = {
+        f"Points where the surface is flat or round, so that any direction is a principal one: {undetermined:,}.": (
+            undetermined
+        ),
+        f"Points with too few neighbours to tell: {unknown:,}.": unknown,
+    }
+    return [note for note, count in told.items() if count]

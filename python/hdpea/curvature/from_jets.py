@@ -1,0 +1,79 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Curvature from jets: quadratic fits to the points themselves, with the sign of the curvatures."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hdpea import _core
+from hdpea.curvature.options import JET_NEIGHBORS, MOST_JET_NEIGHBORS
+from hdpea.curvature.tensors import Estimate
+from hdpea.embedding.embedded import Metric
+from hdpea.report import Choice
+from hdpea.surface import Surface
+
+SURE = 0.1
+"""Standard error of the directions, in radians, at which a jet needs no more neighbours."""
+
+SURELY_FLAT = 0.25
+"""Standard error of the curvatures, in 1 / unit length, at which it needs none either: what bends less looks flat."""
+
+FEW_UNSURE = 0.05
+"""Share of unsure points that a clean cloud may have, at creases; with more, it is noisy."""
+
+DETERMINED = 0.25
+"""Largest standard error of the directions in radians: 15 degrees."""
+
+ROUND = 0.05
+"""Difference of the curvatures, as a share of the larger, up to which all directions are principal ones."""
+
+FLAT = 0.05
+"""The same in 1 / unit length: the radius of what bends less is twenty times the cloud."""
+
+
+def estimate_from_jets(surface: Surface, metric: Metric, neighbors: int | None) -> Estimate:
+    """Fit jets to each point and its neighbours of the same sheet, to more of them where noise needs it.
+
+    The stretches are those of the true `metric` of the curvatures found.
+    """
+    jets = _fit(surface, neighbors)
+    curvatures, direction1 = jets.curvature.principal, jets.curvature.direction1
+    bend = _bend(jets)
+    least_bend = np.maximum(ROUND * abs(curvatures[:, 0]), FLAT)
+    # Comparisons with NaN are false: what is unknown is not determined.
+    determined: NDArray[np.bool_] = (bend >= least_bend) & (jets.curvature_error <= DETERMINED * bend)
+    choices: tuple[Choice, ...] = ()
+    if neighbors is None:
+        many = float((jets.fitted > JET_NEIGHBORS).mean())
+        why = f"{JET_NEIGHBORS} where that is sure enough; {many:.0%} of the points have more"
+        choices = (Choice("neighbors", float(jets.fitted.mean()), "points on average", why),)
+    return Estimate(jets.normals, direction1, metric.stretches(curvatures), curvatures, determined, choices)
+
+
+def _fit(surface: Surface, neighbors: int | None) -> _core.Jets:
+    options = _core.JetOptions()
+    points, normals = surface.points_in_unit, surface.normals
+    if neighbors is not None:
+        options.least_neighbors = neighbors
+        return _core.fit_jets(points, normals, _nearest(surface, neighbors), options)
+    options.least_neighbors = JET_NEIGHBORS
+    options.direction_error, options.curvature_error = SURE, SURELY_FLAT
+    jets = _core.fit_jets(points, normals, surface.neighbors, options)
+    unsure = jets.curvature_error > np.maximum(SURELY_FLAT, SURE * _bend(jets))
+    if unsure.mean() <= FEW_UNSURE:
+        return jets
+    return _core.fit_jets(points, normals, _nearest(surface, MOST_JET_NEIGHBORS), options)
+
+
+def _bend(jets: _core.Jets) -> NDArray[np.float64]:
+    """Return the difference (n,) of the curvatures."""
+    bend: NDArray[np.float64] = abs(jets.curvature.principal[:, 0] - jets.curvature.principal[:, 1])
+    return bend
+
+
+def _nearest(surface: Surface, count: int) -> NDArray[np.int64]:
+    if count <= surface.neighbors.shape[1]:
+        return np.ascontiguousarray(surface.neighbors[:, :count])
+    nearest = _core.nearest_neighbors(surface.points_in_unit, count)
+    return _core.sheet_neighbors(surface.points_in_unit, surface.normals, nearest)

@@ -1,0 +1,97 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Curvature tensors of a cloud: what an estimator finds in the unit frame, and what users get in the world."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hdpea.report import Choice
+
+Rows = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Estimate:
+    """What an estimator says of each point of a surface, in the unit frame.
+
+    Attributes
+    ----------
+    normals
+        (n, 3) float64, unit.
+    direction1
+        (n, 3) float64, unit tangents of k1, or anything where not `determined`.
+    stretches, curvatures
+        (n, 2) float64: s1 >= s2, and k1, k2 with |k1| >= |k2|, in 1 / unit length; NaN where unknown.
+    determined
+        (n,) bool: where the two principal directions can be told apart.
+    """
+
+    normals: Rows
+    direction1: Rows
+    stretches: Rows
+    curvatures: Rows
+    determined: NDArray[np.bool_]
+    choices: tuple[Choice, ...] = ()
+
+
+@dataclass(frozen=True)
+class CurvatureTensors:
+    """The curvature tensor at each point of a cloud, in world units.
+
+    Principal curvature k1 is the one of larger magnitude, |k1| >= |k2|; direction 1 and stretch s1 >= s2 go with it.
+
+    Attributes
+    ----------
+    points
+        (n, 3) float64: finite and distinct, in the order given.
+    normals
+        (n, 3) float64, unit, consistently oriented.
+    direction1, direction2
+        (n, 3) float64, unit principal directions of k1 and k2, of either sign; 0 where not `determined`.
+    stretches
+        (n, 2) float64: how much the curvature metric stretches along them; NaN where unknown.
+    curvatures
+        (n, 2) float64: k1, k2 in 1 / length, convex positive where signed, else magnitudes; NaN where unknown.
+    metric
+        (n, 3, 3) float64: the metric tensor s1^2 d1 d1^T + s2^2 d2 d2^T + n n^T; NaN where unknown.
+    determined
+        (n,) bool: False where the surface is flat or round, as far as the points tell, so that any two
+        directions are principal ones, and where there are too few neighbours.
+    signed
+        Whether curvatures have signs.
+    curvature_range
+        What can be told of |k|: a value at an end of it means that or beyond.
+    choices
+        What was chosen automatically.
+    notes
+        What a user should know, in sentences.
+    """
+
+    points: Rows
+    normals: Rows
+    direction1: Rows
+    direction2: Rows
+    stretches: Rows
+    curvatures: Rows
+    metric: Rows
+    determined: NDArray[np.bool_]
+    signed: bool
+    curvature_range: tuple[float, float]
+    choices: tuple[Choice, ...] = ()
+    notes: tuple[str, ...] = ()
+
+    @property
+    def stretching_ratio(self) -> Rows:
+        """(n,) float64: s1 / s2, at least 1."""
+        ratio: Rows = self.stretches[:, 0] / self.stretches[:, 1]
+        return ratio
+
+
+def metric_tensors(normals: Rows, direction1: Rows, stretches: Rows) -> Rows:
+    """Return the tensors (n, 3, 3) of unit vectors (n, 3) and stretches (n, 2); the identity along the normals."""
+    frames = np.stack([direction1, np.cross(normals, direction1), normals], axis=1)
+    squares = np.column_stack([stretches**2, np.ones(len(stretches))])
+    return np.asarray(np.einsum("nd,ndi,ndj->nij", squares, frames, frames))
