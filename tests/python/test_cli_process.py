@@ -29,6 +29,7 @@ def test_help_imports_nothing_heavy() -> None:
         ["--help"],
         ["reconstruct", "--help"],
         ["--version"],
+        ["evaluate", "--help"],
         ["dataset", "--help"],
         *(["dataset", command, "--help"] for command in ("build", "scan", "degrade", "info", "show")),
     ):
