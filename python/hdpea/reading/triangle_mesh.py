@@ -33,7 +33,7 @@ def read_triangle_mesh(path: Path) -> TriangleMesh:
     vertices, faces = parse_triangle_mesh(path)
     if len(faces) == 0:
         raise UnreadableInput(f"Cannot read {path}: there are no faces in it.", SURFACE_HINT)
-    used, faces = _used(vertices, faces)
+    used, faces = drop_unused(vertices, faces)
     if not np.isfinite(used).all():
         raise UnreadableInput(f"Cannot read {path}: its vertices are not finite.", "Repair the mesh.")
     if len(used) < 3 * len(faces):
@@ -42,8 +42,8 @@ def read_triangle_mesh(path: Path) -> TriangleMesh:
     return distinct, corners.ravel()[faces]
 
 
-def _used(vertices: NDArray[np.float64], faces: NDArray[np.int64]) -> TriangleMesh:
-    """Drop vertices without faces."""
+def drop_unused(vertices: NDArray[np.float64], faces: NDArray[np.int64]) -> TriangleMesh:
+    """Return the mesh without the vertices that have no face."""
     used, corners = np.unique(faces, return_inverse=True)
     return vertices[used], corners.reshape(-1, 3)
 
