@@ -13,7 +13,7 @@ from typing import TypeVar
 from hdpea.benchmark.clouds import make_cloud, write_cloud
 from hdpea.benchmark.methods import Cloud
 from hdpea.benchmark.methods.folder import made_elsewhere
-from hdpea.benchmark.record import Record, key_of, read_record, write_record
+from hdpea.benchmark.record import Record, file_name, key_of, read_record, write_record
 from hdpea.benchmark.running import Task, run
 from hdpea.benchmark.suite import Suite, SuiteInput, SuiteMethod
 from hdpea.dataset.raycasting import require_embree
@@ -21,6 +21,7 @@ from hdpea.dataset.sources import MeshSource, find_meshes
 from hdpea.dataset.surface_file import read_surface
 from hdpea.errors import HdpeaError, UsageError, core_errors_translated
 from hdpea.evaluation.evaluating import evaluate
+from hdpea.evaluation.options import EvaluationOptions
 from hdpea.evaluation.truth import Truth, truth_of_mesh
 from hdpea.reading.triangle_mesh import TriangleMesh
 from hdpea.version import version
@@ -35,6 +36,7 @@ class Model:
     """A true mesh, read and prepared only if a run needs it, then once for all of them."""
 
     source: MeshSource
+    options: EvaluationOptions
 
     @cached_property
     def surface(self) -> TriangleMesh:
@@ -44,7 +46,7 @@ class Model:
     @cached_property
     def truth(self) -> Truth:
         """The surface as results are measured against it."""
-        return truth_of_mesh(*self.surface)
+        return truth_of_mesh(*self.surface, self.options)
 
 
 def run_suite(
@@ -79,8 +81,9 @@ def run_suite(
         raise UsageError(f"Cannot write to {folder}: {error.strerror}.", "Choose another folder.") from error
     total = len(sources) * len(suite.inputs) * len(suite.methods) * len(suite.options.vertices)
     records: list[Record] = []
+    measuring = EvaluationOptions(samples=suite.options.samples)
     for source in sources:
-        for record, news in _runs_of(suite, Model(source), folder):
+        for record, news in _runs_of(suite, Model(source, measuring), folder):
             records.append(record)
             told(f"[{len(records)} of {total}] {record.stem.as_posix()}: {news}")
     return records
@@ -115,8 +118,10 @@ def _planned(suite: Suite, model: Model, given: SuiteInput, method: SuiteMethod,
     name = model.source.name
     file = None if method.method != "folder" else made_elsewhere(method.options(), name, given.name, vertices)
     content = sha256(file.read_bytes()).hexdigest() if file is not None and file.is_file() else None
-    of_points = (suite.options.points, suite.options.seed, asdict(given), model.source.sha256())
-    key = key_of(version(), name, of_points, method.method, dict(method.values), content, vertices)
+    of_points = (suite.options.seed, asdict(given), model.source.sha256())
+    key = key_of(
+        version(), name, of_points, method.method, dict(method.values), content, vertices, asdict(model.options)
+    )
     return Record(name, given.name, method.name, vertices, key)
 
 
@@ -124,10 +129,10 @@ def _cloud(suite: Suite, model: Model, given: SuiteInput, folder: Path) -> Cloud
     """Make the points and write them; if they cannot be had, return why."""
     try:
         with core_errors_translated():
-            cloud = make_cloud(model.surface, model.source.name, given, suite.options)
+            cloud = make_cloud(model.surface, model.source.name, given, suite.options.seed)
     except HdpeaError as error:
         return error
-    write_cloud(folder / CLOUDS / given.name / f"{model.source.name}.ply", cloud)
+    write_cloud(folder / CLOUDS / file_name(given.name) / f"{file_name(model.source.name)}.ply", cloud)
     return cloud
 
 

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from hdpea.benchmark.methods import Cloud
-from hdpea.benchmark.suite import SuiteInput, SuiteOptions
+from hdpea.benchmark.suite import SuiteInput
 from hdpea.dataset.building import seed_of
 from hdpea.dataset.degradation import degraded
 from hdpea.dataset.estimation import estimated_normals
@@ -22,7 +22,7 @@ from hdpea.reading.triangle_mesh import TriangleMesh
 from hdpea.writing import point_ply
 
 
-def make_cloud(surface: TriangleMesh, model: str, given: SuiteInput, options: SuiteOptions) -> Cloud:
+def make_cloud(surface: TriangleMesh, model: str, given: SuiteInput, seed: int) -> Cloud:
     """Draw points of a surface in world units, or scan it, and make them worse; the same for the same names and seed.
 
     Normals are the true ones, unless the input says that they are to be estimated from the points.
@@ -34,9 +34,9 @@ def make_cloud(surface: TriangleMesh, model: str, given: SuiteInput, options: Su
     UsageError
         If a scan is asked for and embreex is missing; if no points are left.
     """
-    seed = seed_of(model, options.seed)
+    seed = seed_of(model, seed)
     frame = UnitFrame.around(surface[0])
-    wanted = DatasetOptions(given.sample, SamplingOptions(points=options.points), given.scan)
+    wanted = DatasetOptions(given.sample, SamplingOptions(points=given.scan.points), given.scan)
     points, surface_points, normals, _ = draw_points(frame.to_unit(surface[0]), surface[1], wanted, seed)
     nothing = np.zeros((len(points), 0), np.float32)  # no method is given the embedding
     sample = Sample(

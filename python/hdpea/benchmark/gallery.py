@@ -11,7 +11,7 @@ from tempfile import TemporaryDirectory
 
 from hdpea.benchmark.benchmarking import evenly, mesh_path
 from hdpea.benchmark.drawing import Scene
-from hdpea.benchmark.record import Record
+from hdpea.benchmark.record import Record, file_name
 from hdpea.benchmark.suite import Suite
 from hdpea.dataset.sources import MeshSource, find_meshes
 from hdpea.dataset.surface_file import read_surface
@@ -57,7 +57,7 @@ def _draw_model(gallery: Gallery, source: MeshSource, folder: Path, records: Seq
     if not finished:
         return
     scene = Scene.of(read_surface(source.path))
-    truth = folder / PICTURES / f"{finished[0].stem.parts[1]}.webp"
+    truth = folder / PICTURES / f"{file_name(source.name)}.webp"
     _drawn(truth, source.path, scene.draw_truth)
     gallery.truths[source.name] = truth
     for record in finished:

@@ -56,8 +56,12 @@ class Record:
     @property
     def stem(self) -> Path:
         """Where the files of this run lie in a folder of their kind, without their extension."""
-        parts = (self.given, self.model, f"{self.method}@{self.vertices}")
-        return Path(*(re.sub(r"[^\w.@%+-]+", "_", part) for part in parts))
+        return Path(*map(file_name, (self.given, self.model, f"{self.method}@{self.vertices}")))
+
+
+def file_name(name: str) -> str:
+    """Return a name as a part of a path."""
+    return re.sub(r"[^\w.@%+-]+", "_", name)
 
 
 def key_of(*what: Any) -> str:

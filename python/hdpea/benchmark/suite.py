@@ -15,6 +15,7 @@ from hdpea.benchmark.methods import method_options
 from hdpea.dataset.options import DegradationOptions, SampleOptions, ScanOptions
 from hdpea.errors import UnreadableInput, UsageError
 from hdpea.evaluation.normalization import LONGEST_SIDE, NORMALIZATIONS
+from hdpea.evaluation.options import EvaluationOptions
 from hdpea.options import Checked, option
 from hdpea.reading import read_bytes
 
@@ -26,8 +27,11 @@ class SuiteOptions(Checked):
     title: str = option("", "what it is, in a line")
     meshes: str = option("", "folder of the true meshes, from where the suite lies; --meshes wins over it")
     models: int = option(0, "how many of them, evenly over their names; 0: all", minimum=0)
-    points: int = option(40_000, "points of each input, before any are taken away", minimum=100)
+    points: int = option(
+        40_000, "points of each input that does not say otherwise, before any are taken away", minimum=100
+    )
     vertices: tuple[int, ...] = option((5_000,), "vertices wanted, one or several numbers")
+    samples: int = option(EvaluationOptions().samples, "points drawn of each surface to measure a result", minimum=1)
     time_limit: float = option(600.0, "seconds after which a run is given up", minimum=0)
     pictures: int = option(4, "how many models are drawn, evenly over their names", minimum=0)
     seed: int = option(0, "seed of the points", minimum=0)
@@ -45,7 +49,10 @@ class SuiteOptions(Checked):
 
 @dataclass(frozen=True)
 class SuiteInput:
-    """A way to make points of a model: the kind of the sample, the scan if it is one, and what is done to it then."""
+    """A way to make points of a model: the kind of the sample, the scan if it is one, and what is done to it then.
+
+    The number of points is that of `scan`, whatever the kind.
+    """
 
     name: str
     sample: SampleOptions
@@ -159,10 +166,9 @@ def _input(table: dict[str, Any], options: SuiteOptions) -> SuiteInput:
     scan = _known(table.pop("scan", {}), ScanOptions, f"{where}, scan", without=("points", "seed"))
     sample = {key: table.pop(key) for key in ("kind", "estimate") if key in table}
     name = _name(table, where)
+    points = _known({"points": table.pop("points", options.points)}, SuiteOptions, where)
     degradation = _known(table, DegradationOptions, where, without=("seed",))
-    return SuiteInput(
-        name, SampleOptions(**sample), ScanOptions(**scan, points=options.points), DegradationOptions(**degradation)
-    )
+    return SuiteInput(name, SampleOptions(**sample), ScanOptions(**scan, **points), DegradationOptions(**degradation))
 
 
 def _chosen(tables: Sequence[dict[str, Any]], only: Sequence[str], suite: str) -> list[dict[str, Any]]:
