@@ -117,7 +117,7 @@ def test_what_fails_is_told_and_tried_again(suite: Path, tmp_path: Path, capsys:
 def test_what_cannot_be_run_is_told(suite: Path, tmp_path: Path, failed: Failed) -> None:
     assert "no suite" in failed(3, "benchmark", "nothing", tmp_path / "out")
     assert "no file or folder" in failed(3, "benchmark", suite, tmp_path / "out", "--meshes", tmp_path / "absent")
-    assert "no method 'x'" in failed(2, "benchmark", suite, tmp_path / "out", "--methods", "x")
+    assert "no method 'x'" in failed(2, "benchmark", suite, tmp_path / "out", "--method", "x")
     assert "Cannot write" in failed(2, "benchmark", suite, suite)
     suite.write_text(suite.read_text().replace('meshes = "meshes"', ""))
     assert "does not say where" in failed(2, "benchmark", suite, tmp_path / "out")

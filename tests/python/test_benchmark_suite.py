@@ -13,6 +13,8 @@ from hdpea.benchmark.suite import read_suite, shipped_suites
 from hdpea.errors import UnreadableInput, UsageError
 from hdpea.lengths import Length
 
+DOCS = (Path(__file__).parents[2] / "docs" / "benchmark.md").read_text()
+
 SUITE = """
 title = "all of it"
 meshes = "meshes"
@@ -92,6 +94,7 @@ def test_the_suites_that_come_with_hdpea_are_in_order(name: str) -> None:
     suite = read_suite(name)
     assert suite.options.title
     assert "hdpea" in [method.method for method in suite.methods]
+    assert f"| `{name}` |" in DOCS
 
 
 @pytest.mark.parametrize(

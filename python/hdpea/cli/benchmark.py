@@ -13,7 +13,7 @@ from hdpea.errors import QualityMissed, UsageError
 EPILOG = """\b
 Examples:
   hdpea benchmark quick results/ --meshes meshes/
-  hdpea benchmark quick results/ --meshes meshes/ --methods hdpea
+  hdpea benchmark quick results/ --meshes meshes/ --method hdpea
   hdpea benchmark my_suite.toml results/
 
 \b
@@ -26,14 +26,21 @@ Exit codes: 0 ok, 2 usage or a library is missing, 3 no such suite or meshes,
 @click.argument("suite")
 @click.argument("output", metavar="OUT", type=click.Path(path_type=Path))
 @click.option("--meshes", cls=GroupedOption, help="folder of the true meshes, or thingi10k:ID,ID")
-@click.option("--methods", cls=GroupedOption, metavar="NAME,NAME", help="only these of the suite")
+@click.option(
+    "--method",
+    "methods",
+    cls=GroupedOption,
+    multiple=True,
+    help="only this one of the suite; may be given several times",
+)
 @quiet_option
-def command(*, suite: str, output: Path, meshes: str | None, methods: str | None, quiet: bool) -> None:
+def command(*, suite: str, output: Path, meshes: str | None, methods: tuple[str, ...], quiet: bool) -> None:
     """Run the methods of SUITE on points of true meshes, measure what they make, and compare it in OUT.
 
-    SUITE is one that comes with hdpea (quick, ...) or a TOML file: inputs and how they are degraded,
-    methods and their options, numbers of vertices. OUT gets results.csv, results.md, index.html
-    with all tables and pictures in it, and the points and meshes themselves.
+    SUITE is quick, sampling, scans, robustness, normals, points or sizes, or a TOML file of your
+    own: inputs and how they are degraded, methods and their options, numbers of vertices. OUT gets
+    results.csv, results.md, index.html with all tables and pictures in it, and the points and
+    meshes themselves.
 
     Each run has a process and a time limit of its own. What was finished before is kept: the same
     command continues a suite that was stopped. Rivals need pip install 'hdpea[benchmark]'.
@@ -44,7 +51,7 @@ def command(*, suite: str, output: Path, meshes: str | None, methods: str | None
     from hdpea.benchmark.suite import read_suite
     from hdpea.picture import check_drawing
 
-    wanted = read_suite(suite, [] if methods is None else methods.split(","))
+    wanted = read_suite(suite, methods)
     where = meshes or wanted.meshes
     if not where:
         raise UsageError("The suite does not say where the meshes are.", "Add --meshes FOLDER.")
