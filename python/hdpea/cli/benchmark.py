@@ -31,7 +31,7 @@ Exit codes: 0 ok, 2 usage or a library is missing, 3 no such suite or meshes,
     "methods",
     cls=GroupedOption,
     multiple=True,
-    help="only this one of the suite; may be given several times",
+    help="only this one of the suite; may be repeated",
 )
 @quiet_option
 def command(*, suite: str, output: Path, meshes: str | None, methods: tuple[str, ...], quiet: bool) -> None:
