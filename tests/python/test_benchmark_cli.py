@@ -175,11 +175,12 @@ def test_normals_are_the_true_ones_unless_they_are_to_be_estimated() -> None:
         ("poisson", {"depth": 5, "reduce": "quadric"}, "pymeshlab"),
         ("poisson", {"depth": 5, "reduce": "acvd"}, "pyacvd"),
         ("ball_pivoting", {"reduce": "quadric"}, "pymeshlab"),
+        ("co3ne", {"reduce": "cvt"}, "geogram"),
     ],
 )
 def test_methods_make_meshes_of_the_wanted_size(method: str, values: dict[str, object], library: str) -> None:
     pytest.importorskip(library)
-    pytest.importorskip("pymeshlab" if method != "hdpea" else "torch")
+    pytest.importorskip("pymeshlab" if method in ("poisson", "ball_pivoting") else library)
     method_options(method, values)
     made = work(Task(cloud_of(), method, values, 200))
     vertices, faces = made.mesh

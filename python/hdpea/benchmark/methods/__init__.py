@@ -17,7 +17,7 @@ from typing import Any, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from hdpea.benchmark.methods.options import BallPivotingOptions, FolderOptions, PoissonOptions
+from hdpea.benchmark.methods.options import BallPivotingOptions, Co3neOptions, FolderOptions, PoissonOptions
 from hdpea.errors import UsageError
 from hdpea.lengths import Length
 from hdpea.options import Options
@@ -60,13 +60,22 @@ class Method:
         return function
 
 
+GEOGRAM = ("geogram", "hdpea.benchmark.methods.geogram")
+
 METHODS = {
     "hdpea": Method("ours", Options, ("torch",)),
     "poisson": Method("poisson", PoissonOptions, ("pymeshlab",)),
     "ball_pivoting": Method("ball_pivoting", BallPivotingOptions, ("pymeshlab",)),
+    "co3ne": Method("co3ne", Co3neOptions, GEOGRAM),
     "folder": Method("folder", FolderOptions),
 }
-LIBRARIES_OF_REDUCTION = {"fast": ("fast_simplification",), "quadric": ("pymeshlab",), "acvd": ("pyacvd",), "none": ()}
+LIBRARIES_OF_REDUCTION = {
+    "fast": ("fast_simplification",),
+    "quadric": ("pymeshlab",),
+    "acvd": ("pyacvd",),
+    "cvt": GEOGRAM,
+    "none": (),
+}
 
 
 def method_options(method: str, values: Mapping[str, Any]) -> Any:

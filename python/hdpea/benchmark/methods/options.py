@@ -16,8 +16,8 @@ class ReducedOptions(Checked):
     reduce: str = option(
         "fast",
         "fast: quadric edge collapse by fast-simplification; quadric: by MeshLab; acvd: centroidal Voronoi clusters "
-        "by pyacvd; none: not at all",
-        choices=("fast", "quadric", "acvd", "none"),
+        "by pyacvd; cvt: anisotropic centroidal Voronoi remeshing by Geogram; none: not at all",
+        choices=("fast", "quadric", "acvd", "cvt", "none"),
     )
 
 
@@ -33,6 +33,13 @@ class BallPivotingOptions(ReducedOptions):
     """The ball-pivoting algorithm (Bernardini et al., 1999), by MeshLab."""
 
     radius: float = option(0.0, "of the ball, in percent of the diagonal; 0: guessed from the density", minimum=0)
+
+
+@dataclass(frozen=True)
+class Co3neOptions(ReducedOptions):
+    """Concurrent co-cones (Boltcheva and Levy, 2017), by Geogram."""
+
+    radius: float = option(5.0, "within which points are connected, in percent of the diagonal", minimum=0)
 
 
 @dataclass(frozen=True)

@@ -67,9 +67,15 @@ def _clustered(mesh: TriangleMesh, vertices: int) -> TriangleMesh:
         return np.asarray(made.points, np.float64), np.asarray(made.regular_faces, np.int64)
 
 
+def _remeshed(mesh: TriangleMesh, vertices: int) -> TriangleMesh:
+    from hdpea.benchmark.methods.geogram import remeshed
+
+    return remeshed(mesh, vertices)
+
+
 def _faces_of(vertices: int) -> int:
     """Return how many faces a closed mesh of so many vertices has, without handles."""
     return 2 * vertices - 4
 
 
-_REDUCTIONS = {"fast": _collapsed_fast, "quadric": _collapsed_by_meshlab, "acvd": _clustered}
+_REDUCTIONS = {"fast": _collapsed_fast, "quadric": _collapsed_by_meshlab, "acvd": _clustered, "cvt": _remeshed}
