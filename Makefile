@@ -67,6 +67,7 @@ setup: debian $(VENV)/.package
 
 bench-setup: setup
 	$(BIN)/pip install -qq -c $(CONSTRAINTS) --group bench
+	$(BIN)/pip install -qq -c $(CONSTRAINTS) --no-build-isolation '.[benchmark,dataset,picture]'
 
 # ---- demo ------------------------------------------------------------------------------------------
 

@@ -6,6 +6,7 @@ from __future__ import annotations
 import os
 import sys
 from ctypes.util import find_library
+from dataclasses import dataclass
 from importlib import import_module
 from importlib.util import find_spec
 from pathlib import Path
@@ -61,10 +62,48 @@ def point_size(points: int, window: tuple[int, int]) -> float:
 def look_at(plotter: Any, points: NDArray[np.float64], window: tuple[int, int]) -> None:
     """Let the camera look along -z at all of the points (n, 3)."""
     low, high = points.min(axis=0), points.max(axis=0)
-    (x, y, z), (width, height, _) = (low + high) / 2, high - low
+    _look(plotter, (low + high) / 2, high - low, window)
+
+
+def _look(plotter: Any, centre: NDArray[np.float64], size: NDArray[np.float64], window: tuple[int, int]) -> None:
+    """Let the camera look along -z at a box of that centre (3,) and size (3,)."""
+    x, y, z = centre
     plotter.camera_position = [(x, y, z + 2), (x, y, z), (0, 1, 0)]
     plotter.camera.parallel_projection = True
-    plotter.camera.parallel_scale = MARGIN * max(height, width * window[1] / window[0]) / 2
+    plotter.camera.parallel_scale = MARGIN * max(size[1], size[0] * window[1] / window[0]) / 2
+
+
+@dataclass(frozen=True)
+class Camera:
+    """Where to look from, and how much is seen: the same for several meshes of one thing.
+
+    Attributes
+    ----------
+    view_from_world
+        (3, 3) rotation: x to the right, y up, z towards the eye.
+    centre_in_view, scale
+        (3,), and a length in world units: the middle of what is seen, and what counts as 1.
+    size
+        (3,): of the box that is seen, in `scale`.
+    """
+
+    view_from_world: NDArray[np.float64]
+    centre_in_view: NDArray[np.float64]
+    scale: float
+    size: NDArray[np.float64]
+
+    @classmethod
+    def before(cls, vertices: NDArray[np.float64], faces: NDArray[np.int64]) -> Camera:
+        """Look at a mesh (v, 3), (f, 3) obliquely, from the side that most of it faces."""
+        view_from_world = choose_view(vertices, faces)
+        in_view = vertices @ view_from_world.T
+        low, high = in_view.min(axis=0), in_view.max(axis=0)
+        scale = float(np.linalg.norm(high - low)) or 1.0
+        return cls(view_from_world, (low + high) / 2, scale, (high - low) / scale)
+
+    def to_view(self, points: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Return points (n, 3) of the world as the renderer takes them: in single precision, so centred, of size 1."""
+        return (points @ self.view_from_world.T - self.centre_in_view) / self.scale
 
 
 def draw_mesh(
@@ -73,6 +112,8 @@ def draw_mesh(
     faces: NDArray[np.int64],
     points: NDArray[np.float64] | None = None,
     size: tuple[int, int] = (1600, 1200),
+    camera: Camera | None = None,
+    colors: NDArray[np.uint8] | None = None,
 ) -> None:
     """Draw the surface with its edges, seen obliquely from the side that most of it faces.
 
@@ -88,6 +129,10 @@ def draw_mesh(
         (n, 3) to be drawn as dots, for comparison.
     size
         Width and height in pixels.
+    camera
+        That of another mesh, to compare both.
+    colors
+        (v, 3), red, green and blue of the vertices, in place of the colour of the side and of the edges.
 
     Raises
     ------
@@ -97,27 +142,24 @@ def draw_mesh(
     check_output(path, PICTURE_FORMATS)
     check_drawing()
     pyvista = load_pyvista()
-    view_from_world = choose_view(vertices, faces)
-    # The renderer works in single precision: what it gets is centred and of size 1.
-    in_view = vertices @ view_from_world.T
-    low, high = in_view.min(axis=0), in_view.max(axis=0)
-    center, scale = (low + high) / 2, np.linalg.norm(high - low) or 1.0
-
+    camera = camera or Camera.before(vertices, faces)
+    surface = pyvista.PolyData.from_regular_faces(camera.to_view(vertices), faces.astype(int))
     plotter = pyvista.Plotter(off_screen=True, window_size=list(size), lighting="none")
     plotter.background_color = pyvista.Color("white")
-    plotter.add_mesh(
-        pyvista.PolyData.from_regular_faces((in_view - center) / scale, faces.astype(int)),
-        color=FRONT,
-        backface_params={"color": BACK},
-        show_edges=True,
-        edge_color=EDGES,
-        line_width=0.6,
-        ambient=0.3,
-        diffuse=0.75,
-    )
+    if colors is None:
+        looks = {
+            "color": FRONT,
+            "backface_params": {"color": BACK},
+            "show_edges": True,
+            "edge_color": EDGES,
+            "line_width": 0.6,
+        }
+    else:
+        looks = {"scalars": colors, "rgb": True}
+    plotter.add_mesh(surface, ambient=0.3, diffuse=0.75, **looks)
     if points is not None:
-        plotter.add_points((points @ view_from_world.T - center) / scale, color=DOTS, point_size=2)
-    look_at(plotter, (in_view - center) / scale, size)
+        plotter.add_points(camera.to_view(points), color=DOTS, point_size=2)
+    _look(plotter, np.zeros(3), camera.size, size)
     plotter.add_light(pyvista.Light(position=(-0.7, 1.0, 2.0), light_type="scene light"))
     plotter.enable_anti_aliasing("ssaa")
     with replacing(path) as partial:

@@ -30,6 +30,8 @@ def test_help_imports_nothing_heavy() -> None:
         ["reconstruct", "--help"],
         ["curvature", "--help"],
         ["--version"],
+        ["evaluate", "--help"],
+        ["benchmark", "--help"],
         ["dataset", "--help"],
         *(["dataset", command, "--help"] for command in ("build", "scan", "degrade", "info", "show")),
     ):

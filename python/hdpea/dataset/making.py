@@ -37,7 +37,7 @@ def make_sample(
     frame = UnitFrame.around(vertices_in_world)
     # Points first: what goes wrong with them should not take the minute that the truth takes.
     tell(progress, "points", 0.0)
-    points, surface_points, normals, sensors = _points_of(frame.to_unit(vertices_in_world), faces, options, seed)
+    points, surface_points, normals, sensors = draw_points(frame.to_unit(vertices_in_world), faces, options, seed)
     estimated = estimated_normals(points) if options.sample.estimate else None
     truth = embed_mesh(vertices_in_world, faces, options.ground_truth, progress).at(surface_points)
     return Sample(
@@ -53,7 +53,7 @@ def make_sample(
     )
 
 
-def _points_of(
+def draw_points(
     vertices: Rows, faces: NDArray[np.int64], options: DatasetOptions, seed: int
 ) -> tuple[Rows, Rows, Rows, Rows | None]:
     """Return points, the points of the surface they stand for, normals and sensors, if any saw them."""

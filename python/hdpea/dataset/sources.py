@@ -8,8 +8,8 @@ from dataclasses import dataclass, replace
 from hashlib import sha256
 from pathlib import Path
 
-from hdpea.dataset.surface_file import SURFACE_FORMATS
 from hdpea.errors import UnreadableInput
+from hdpea.reading.triangle_mesh import SURFACE_FORMATS
 
 UNSTATED = "unstated"
 LICENCE_FILE = "MANIFEST.json"

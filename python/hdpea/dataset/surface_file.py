@@ -3,22 +3,16 @@
 
 from __future__ import annotations
 
-import io
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
 from hdpea.errors import CannotReconstruct, UnreadableInput
-from hdpea.reading import DAMAGE, read_bytes
-
-Surface = tuple[NDArray[np.float64], NDArray[np.int64]]
-
-SURFACE_FORMATS = (".ply", ".obj", ".stl", ".off", ".glb", ".npz")
-_HINT = f"Meshes are {', '.join(each[1:].upper() for each in SURFACE_FORMATS)} (arrays vertices and facets)."
+from hdpea.reading.triangle_mesh import SURFACE_HINT, TriangleMesh, parse_triangle_mesh
 
 
-def read_surface(path: Path) -> Surface:
+def read_surface(path: Path) -> TriangleMesh:
     """Return the vertices (v, 3) float64 and faces (f, 3) int64 of a closed surface, its normals outward.
 
     Equal vertices are merged, since some formats repeat them for every face; faces that lose their area and
@@ -31,14 +25,10 @@ def read_surface(path: Path) -> Surface:
     CannotReconstruct
         If the surface is not closed, manifold and of one orientation.
     """
-    data = read_bytes(path)
-    try:
-        vertices, faces = _parse(data, path.suffix.lower())
-    except DAMAGE as error:
-        raise UnreadableInput(f"Cannot read {path}: it is no mesh, or damaged ({error}).", _HINT) from error
+    vertices, faces = parse_triangle_mesh(path)
     vertices, faces = _merged(vertices, faces)
     if len(faces) == 0:
-        raise UnreadableInput(f"Cannot read {path}: there are no faces in it.", _HINT)
+        raise UnreadableInput(f"Cannot read {path}: there are no faces in it.", SURFACE_HINT)
     if not np.isfinite(vertices).all():
         raise UnreadableInput(f"Cannot read {path}: its vertices are not finite.", "Repair the mesh.")
     _require_closed(path, vertices, faces)
@@ -46,20 +36,7 @@ def read_surface(path: Path) -> Surface:
     return vertices, faces if volume >= 0 else faces[:, ::-1].copy()
 
 
-def _parse(data: bytes, suffix: str) -> Surface:
-    if suffix not in SURFACE_FORMATS:
-        raise ValueError(f"the extension {suffix!r} is unknown")
-    if suffix == ".npz":
-        with np.load(io.BytesIO(data), allow_pickle=False) as arrays:
-            return arrays["vertices"].astype(np.float64), arrays["facets"].astype(np.int64)
-    import trimesh
-
-    options = {"skip_materials": True} if suffix == ".obj" else {}
-    mesh = trimesh.load_mesh(io.BytesIO(data), file_type=suffix[1:], process=False, **options)
-    return np.asarray(mesh.vertices, np.float64), np.asarray(mesh.faces, np.int64)
-
-
-def _merged(vertices: NDArray[np.float64], faces: NDArray[np.int64]) -> Surface:
+def _merged(vertices: NDArray[np.float64], faces: NDArray[np.int64]) -> TriangleMesh:
     used, faces = np.unique(faces, return_inverse=True)
     distinct, faces_of_distinct = np.unique(vertices[used], axis=0, return_inverse=True)
     corners = faces_of_distinct.ravel()[faces.reshape(-1, 3)]

@@ -1,0 +1,170 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""All runs of a suite, one after the other, continued where they were stopped."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import asdict, dataclass, replace
+from functools import cached_property
+from hashlib import sha256
+from pathlib import Path
+from typing import TypeVar
+
+from hdpea.benchmark.clouds import make_cloud, write_cloud
+from hdpea.benchmark.methods import Cloud
+from hdpea.benchmark.methods.folder import made_elsewhere
+from hdpea.benchmark.record import Record, file_name, key_of, read_record, write_record
+from hdpea.benchmark.running import Task, run
+from hdpea.benchmark.suite import Suite, SuiteInput, SuiteMethod
+from hdpea.dataset.raycasting import require_embree
+from hdpea.dataset.sources import MeshSource, find_meshes
+from hdpea.dataset.surface_file import read_surface
+from hdpea.errors import HdpeaError, UsageError, core_errors_translated
+from hdpea.evaluation.evaluating import evaluate
+from hdpea.evaluation.options import EvaluationOptions
+from hdpea.evaluation.truth import Truth, truth_of_mesh
+from hdpea.reading.triangle_mesh import TriangleMesh
+from hdpea.version import version
+from hdpea.writing import write_mesh
+
+Chosen = TypeVar("Chosen")
+RUNS, MESHES, CLOUDS = "runs", "meshes", "clouds"
+
+
+@dataclass
+class Model:
+    """A true mesh, read and prepared only if a run needs it, then once for all of them."""
+
+    source: MeshSource
+    options: EvaluationOptions
+
+    @cached_property
+    def surface(self) -> TriangleMesh:
+        """The closed surface."""
+        return read_surface(self.source.path)
+
+    @cached_property
+    def truth(self) -> Truth:
+        """The surface as results are measured against it."""
+        return truth_of_mesh(*self.surface, self.options)
+
+
+def run_suite(
+    suite: Suite,
+    meshes: str,
+    folder: Path,
+    told: Callable[[str], None] = lambda _: None,
+) -> list[Record]:
+    """Run a suite on the meshes that `meshes` names (see ``find_meshes``); return every record, also of failures.
+
+    What `folder` holds of an earlier run is kept if nothing it depends on has changed; failures are tried again. It
+    gets ``clouds/`` (the points that every method was given), ``meshes/`` and ``runs/``.
+
+    Parameters
+    ----------
+    told
+        Is given a line about each run.
+
+    Raises
+    ------
+    UnreadableInput
+        If there are no meshes.
+    UsageError
+        If the folder cannot be written, or scans are asked for and embreex is not installed.
+    """
+    if any(given.sample.kind == "scan" for given in suite.inputs):
+        require_embree()  # said once, not of every model
+    sources = evenly(find_meshes(meshes), suite.options.models)
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise UsageError(f"Cannot write to {folder}: {error.strerror}.", "Choose another folder.") from error
+    total = len(sources) * len(suite.inputs) * len(suite.methods) * len(suite.options.vertices)
+    records: list[Record] = []
+    measuring = EvaluationOptions(samples=suite.options.samples)
+    for source in sources:
+        for record, news in _runs_of(suite, Model(source, measuring), folder):
+            records.append(record)
+            told(f"[{len(records)} of {total}] {record.stem.as_posix()}: {news}")
+    return records
+
+
+def _runs_of(suite: Suite, model: Model, folder: Path) -> Iterator[tuple[Record, str]]:
+    """Yield the records of a model, and what to say of each."""
+    for given in suite.inputs:
+        cloud: Cloud | HdpeaError | None = None
+        for method in suite.methods:
+            for vertices in suite.options.vertices:
+                planned = _planned(suite, model, given, method, vertices)
+                path = folder / RUNS / planned.stem.with_name(planned.stem.name + ".json")
+                earlier = read_record(path)
+                mesh = mesh_path(folder, planned)
+                if earlier is not None and earlier.key == planned.key and not earlier.failed and mesh.exists():
+                    yield earlier, "is there already"
+                    continue
+                cloud = cloud or _cloud(suite, model, given, folder)
+                record = _run(planned, model, cloud, method, suite.options.time_limit, mesh)
+                write_record(path, record)
+                yield record, _news(record)
+
+
+def mesh_path(folder: Path, record: Record) -> Path:
+    """Return where the mesh of a run is, in the folder of the results."""
+    return folder / MESHES / record.stem.with_name(record.stem.name + ".ply")
+
+
+def _planned(suite: Suite, model: Model, given: SuiteInput, method: SuiteMethod, vertices: int) -> Record:
+    """Return the record of a run that has not been done."""
+    name = model.source.name
+    file = None if method.method != "folder" else made_elsewhere(method.options(), name, given.name, vertices)
+    content = sha256(file.read_bytes()).hexdigest() if file is not None and file.is_file() else None
+    of_points = (suite.options.seed, asdict(given), model.source.sha256())
+    key = key_of(
+        version(), name, of_points, method.method, dict(method.values), content, vertices, asdict(model.options)
+    )
+    return Record(name, given.name, method.name, vertices, key)
+
+
+def _cloud(suite: Suite, model: Model, given: SuiteInput, folder: Path) -> Cloud | HdpeaError:
+    """Make the points and write them; if they cannot be had, return why."""
+    try:
+        with core_errors_translated():
+            cloud = make_cloud(model.surface, model.source.name, given, suite.options.seed)
+    except HdpeaError as error:
+        return error
+    write_cloud(folder / CLOUDS / file_name(given.name) / f"{file_name(model.source.name)}.ply", cloud)
+    return cloud
+
+
+def _run(
+    planned: Record, model: Model, cloud: Cloud | HdpeaError, method: SuiteMethod, time_limit: float, path: Path
+) -> Record:
+    """Run, write the mesh, measure it."""
+    if isinstance(cloud, HdpeaError):
+        return replace(planned, failed=cloud.message)
+    outcome = run(Task(cloud, method.method, method.values, planned.vertices), time_limit)
+    if outcome.result is None:
+        return replace(planned, failed=outcome.failed, seconds=outcome.seconds)
+    made = outcome.result
+    path.parent.mkdir(parents=True, exist_ok=True)
+    write_mesh(path, *made.mesh)
+    done = replace(planned, seconds=made.seconds, cpu_seconds=made.cpu_seconds, peak_bytes=made.peak_bytes)
+    try:
+        return replace(done, scores=evaluate(*made.mesh, model.truth).as_dict())
+    except HdpeaError as error:
+        return replace(done, failed=f"It cannot be measured: {error.message}")
+
+
+def _news(record: Record) -> str:
+    if record.failed:
+        return f"failed: {record.failed}"
+    rms = record.score("accuracy.longest_side.to_truth.rms") or 0.0
+    vertices = record.score("topology.vertices") or 0.0
+    return f"{vertices:,.0f} vertices, rms {1e2 * rms:.3f} % of the longest side, {record.seconds:.1f} s"
+
+
+def evenly(items: Sequence[Chosen], count: int) -> list[Chosen]:
+    """Return `count` of the items, spread evenly over them; all if `count` is 0."""
+    if count == 0 or count >= len(items):
+        return list(items)
+    return [items[(2 * i + 1) * len(items) // (2 * count)] for i in range(count)]

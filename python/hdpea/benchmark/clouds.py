@@ -1,0 +1,62 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The points that every method of a suite is given."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+
+from hdpea.benchmark.methods import Cloud
+from hdpea.benchmark.suite import SuiteInput
+from hdpea.dataset.building import seed_of
+from hdpea.dataset.degradation import degraded
+from hdpea.dataset.estimation import estimated_normals
+from hdpea.dataset.making import draw_points
+from hdpea.dataset.options import DatasetOptions, SamplingOptions
+from hdpea.dataset.sample import Sample
+from hdpea.frame import UnitFrame
+from hdpea.outputs import replacing
+from hdpea.reading.triangle_mesh import TriangleMesh
+from hdpea.writing import point_ply
+
+
+def make_cloud(surface: TriangleMesh, model: str, given: SuiteInput, seed: int) -> Cloud:
+    """Draw points of a surface in world units, or scan it, and make them worse; the same for the same names and seed.
+
+    Normals are the true ones, unless the input says that they are to be estimated from the points.
+
+    Raises
+    ------
+    CannotReconstruct
+        If no sensor sees the surface, or it has no area.
+    UsageError
+        If a scan is asked for and embreex is missing; if no points are left.
+    """
+    seed = seed_of(model, seed)
+    frame = UnitFrame.around(surface[0])
+    wanted = DatasetOptions(given.sample, SamplingOptions(points=given.scan.points), given.scan)
+    points, surface_points, normals, _ = draw_points(frame.to_unit(surface[0]), surface[1], wanted, seed)
+    nothing = np.zeros((len(points), 0), np.float32)  # no method is given the embedding
+    sample = Sample(
+        points=points.astype(np.float32),
+        surface_points=surface_points.astype(np.float32),
+        normals=normals.astype(np.float32),
+        psi=nothing,
+        curvatures=nothing,
+        direction1=nothing,
+        frame=frame,
+    )
+    worse = degraded(sample, replace(given.degradation, seed=seed))
+    if given.sample.estimate:
+        worse = replace(worse, estimated_normals=estimated_normals(worse.points))
+    known = worse.normals if worse.estimated_normals is None else worse.estimated_normals
+    return Cloud(frame.to_world(worse.points.astype(np.float64)), known.astype(np.float64), model, given.name)
+
+
+def write_cloud(path: Path, cloud: Cloud) -> None:
+    """Write the cloud as PLY, for methods that run elsewhere."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    with replacing(path) as partial:
+        partial.write_bytes(point_ply(cloud.points, cloud.normals, {}))

@@ -1,0 +1,85 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The pictures of a suite's results, drawn where they are missing or older than the mesh they show."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+from hdpea.benchmark.benchmarking import evenly, mesh_path
+from hdpea.benchmark.drawing import Scene
+from hdpea.benchmark.record import Record, file_name
+from hdpea.benchmark.suite import Suite
+from hdpea.dataset.sources import MeshSource, find_meshes
+from hdpea.dataset.surface_file import read_surface
+from hdpea.outputs import replacing
+from hdpea.reading.triangle_mesh import read_triangle_mesh
+
+PICTURES = "pictures"
+QUALITY = 80
+"""Of WebP, 0 to 100."""
+
+
+@dataclass(frozen=True)
+class Pictures:
+    """The two pictures of a result: its edges on its surface, and its error."""
+
+    surface: Path
+    error: Path
+
+
+@dataclass(frozen=True)
+class Gallery:
+    """Picture of each drawn model's truth by its name, and those of the results by their record's stem."""
+
+    truths: dict[str, Path]
+    results: dict[Path, Pictures]
+
+
+def draw_gallery(
+    suite: Suite, meshes: str, folder: Path, records: Sequence[Record], told: Callable[[str], None] = lambda _: None
+) -> Gallery:
+    """Draw the results of as many models as the suite says, in ``pictures/``; ``check_drawing`` first."""
+    gallery = Gallery({}, {})
+    if suite.options.pictures == 0:
+        return gallery
+    for source in evenly(evenly(find_meshes(meshes), suite.options.models), suite.options.pictures):
+        told(f"drawing {source.name}")
+        _draw_model(gallery, source, folder, [each for each in records if each.model == source.name])
+    return gallery
+
+
+def _draw_model(gallery: Gallery, source: MeshSource, folder: Path, records: Sequence[Record]) -> None:
+    finished = [each for each in records if not each.failed]
+    if not finished:
+        return
+    scene = Scene.of(read_surface(source.path))
+    truth = folder / PICTURES / f"{file_name(source.name)}.webp"
+    _drawn(truth, source.path, scene.draw_truth)
+    gallery.truths[source.name] = truth
+    for record in finished:
+        path = mesh_path(folder, record)
+        base = folder / PICTURES / record.stem
+        pictures = Pictures(base.with_name(f"{base.name}.webp"), base.with_name(f"{base.name}.error.webp"))
+        mesh = read_triangle_mesh(path)
+        _drawn(pictures.surface, path, partial(scene.draw, mesh=mesh))
+        _drawn(pictures.error, path, partial(scene.draw_error, mesh=mesh))
+        gallery.results[record.stem] = pictures
+
+
+def _drawn(picture: Path, mesh: Path, draw: Callable[[Path], None]) -> None:
+    """Draw a picture, unless it is there and newer than the mesh."""
+    if picture.exists() and picture.stat().st_mtime > mesh.stat().st_mtime:
+        return
+    from PIL import Image
+
+    picture.parent.mkdir(parents=True, exist_ok=True)
+    with TemporaryDirectory() as temporary:
+        drawn = Path(temporary) / "drawn.png"
+        draw(drawn)
+        # A fifth of PNG's size: the page holds all of them.
+        with Image.open(drawn) as image, replacing(picture) as partial:
+            image.convert("RGB").save(partial, "WEBP", quality=QUALITY)

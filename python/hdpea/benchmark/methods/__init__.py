@@ -1,0 +1,116 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Ways from points to a mesh of a given size: ours, and those of others.
+
+A method is a function ``(cloud, vertices, options) -> (vertices, faces)`` in a module of its own, listed in
+``METHODS`` by name; its module is imported only in the process that runs it. Rivals need the extra ``benchmark``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, fields
+from difflib import get_close_matches
+from importlib import import_module
+from importlib.util import find_spec
+from typing import Any, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hdpea.benchmark.methods.options import BallPivotingOptions, Co3neOptions, FolderOptions, PoissonOptions
+from hdpea.errors import UsageError
+from hdpea.lengths import Length
+from hdpea.options import Options
+from hdpea.position import Position
+from hdpea.reading.triangle_mesh import TriangleMesh
+from hdpea.settings import options_from, settings
+
+
+@dataclass(frozen=True)
+class Cloud:
+    """What every method is given: points (n, 3) in world units, unit normals (n, 3), and where they come from.
+
+    `model` and `given` are the names of the model and of the input in the suite.
+    """
+
+    points: NDArray[np.float64]
+    normals: NDArray[np.float64]
+    model: str
+    given: str
+
+
+class Reconstructs(Protocol):
+    """What the module of a method holds as ``reconstruct``."""
+
+    def __call__(self, cloud: Cloud, vertices: int, options: Any) -> TriangleMesh:
+        """Return the vertices (v, 3) and faces (f, 3) of a mesh of about so many vertices."""
+
+
+@dataclass(frozen=True)
+class Method:
+    """A method: its module beside this one, the class of its options, and the libraries it cannot do without."""
+
+    module: str
+    options: type[Any]
+    libraries: tuple[str, ...] = ()
+
+    def load(self) -> Reconstructs:
+        """Import the method."""
+        function: Reconstructs = import_module(f"hdpea.benchmark.methods.{self.module}").reconstruct
+        return function
+
+
+GEOGRAM = ("geogram", "hdpea.benchmark.methods.geogram")
+
+METHODS = {
+    "hdpea": Method("ours", Options, ("torch",)),
+    "poisson": Method("poisson", PoissonOptions, ("pymeshlab",)),
+    "ball_pivoting": Method("ball_pivoting", BallPivotingOptions, ("pymeshlab",)),
+    "co3ne": Method("co3ne", Co3neOptions, GEOGRAM),
+    "folder": Method("folder", FolderOptions),
+}
+LIBRARIES_OF_REDUCTION = {
+    "fast": ("fast_simplification",),
+    "quadric": ("pymeshlab",),
+    "acvd": ("pyacvd",),
+    "cvt": GEOGRAM,
+    "none": (),
+}
+
+
+def method_options(method: str, values: Mapping[str, Any]) -> Any:
+    """Return the options of a method, as a suite gives them by name.
+
+    Raises
+    ------
+    UsageError
+        If there is no such method or option, a value is illegal, or a library is not installed.
+    """
+    if method not in METHODS:
+        raise UsageError(f"There is no method {method!r}.", f"Methods are {', '.join(METHODS)}.")
+    owner = METHODS[method].options
+    known = [each.name for each in settings()] if owner is Options else [each.name for each in fields(owner)]
+    for name in values:
+        if name not in known:
+            near = get_close_matches(name, known, 1, cutoff=0)
+            raise UsageError(f"The method {method} has no option {name!r}.", f"The nearest is {near[0]!r}.")
+    options = options_from(_understood(values)) if owner is Options else owner(**values)
+    for library in libraries(method, options):
+        if find_spec(library) is None:
+            raise UsageError(f"The method {method} needs {library}.", "pip install 'hdpea[benchmark]'")
+    return options
+
+
+def libraries(method: str, options: Any) -> tuple[str, ...]:
+    """Return the libraries that a method needs with these options."""
+    return METHODS[method].libraries + LIBRARIES_OF_REDUCTION[getattr(options, "reduce", "none")]
+
+
+def _understood(values: Mapping[str, Any]) -> dict[str, Any]:
+    """Return settings of a reconstruction as the command line understands their text: lengths and positions parsed."""
+    kinds: dict[type, Callable[[str], Any]] = {Length: Length.parse, Position: Position.parse}
+    parsers = {each.name: kinds[each.kind] for each in settings() if each.kind in kinds}
+    try:
+        return {name: parsers[name](str(value)) if name in parsers else value for name, value in values.items()}
+    except ValueError as error:
+        raise UsageError(f"{error}.") from error

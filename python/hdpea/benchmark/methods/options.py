@@ -1,0 +1,54 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The defaults of the other methods."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from hdpea.errors import UsageError
+from hdpea.options import Checked, option
+
+
+@dataclass(frozen=True)
+class ReducedOptions(Checked):
+    """How a mesh of too many vertices is brought to the wanted number."""
+
+    reduce: str = option(
+        "fast",
+        "fast: quadric edge collapse by fast-simplification; quadric: by MeshLab; acvd: centroidal Voronoi clusters "
+        "by pyacvd; cvt: anisotropic centroidal Voronoi remeshing by Geogram; none: not at all",
+        choices=("fast", "quadric", "acvd", "cvt", "none"),
+    )
+
+
+@dataclass(frozen=True)
+class PoissonOptions(ReducedOptions):
+    """Screened Poisson reconstruction (Kazhdan and Hoppe, 2013), by MeshLab."""
+
+    depth: int = option(8, "of the octree", minimum=1, maximum=14)
+
+
+@dataclass(frozen=True)
+class BallPivotingOptions(ReducedOptions):
+    """The ball-pivoting algorithm (Bernardini et al., 1999), by MeshLab."""
+
+    radius: float = option(0.0, "of the ball, in percent of the diagonal; 0: guessed from the density", minimum=0)
+
+
+@dataclass(frozen=True)
+class Co3neOptions(ReducedOptions):
+    """Concurrent co-cones (Boltcheva and Levy, 2017), by Geogram."""
+
+    radius: float = option(5.0, "within which points are connected, in percent of the diagonal", minimum=0)
+
+
+@dataclass(frozen=True)
+class FolderOptions(Checked):
+    """Meshes made elsewhere."""
+
+    path: str = option("", "of the meshes, with {model}, {input} and {vertices} in it, as ndc/{model}.obj")
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        if "{model}" not in self.path:
+            raise UsageError("The path of a folder of meshes has no {model} in it.", "Such as ndc/{model}.obj")

@@ -1,0 +1,81 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Meshes of many vertices made smaller, by the libraries people use for it."""
+
+from __future__ import annotations
+
+import warnings
+
+import numpy as np
+
+from hdpea.reading.triangle_mesh import TriangleMesh, drop_unused
+
+CLUSTERED_FROM = 20
+"""Vertices for each cluster that pyacvd wants: a coarser mesh is subdivided first, as its makers advise."""
+
+
+TOLERANCE = 0.01
+"""Share of the wanted vertices by which a mesh may miss them, as for hdpea itself."""
+
+ATTEMPTS = 4
+"""How often another number is asked for: methods count faces or clusters, and borders and handles change the ratio."""
+
+
+def reduced(mesh: TriangleMesh, vertices: int, how: str) -> TriangleMesh:
+    """Return a mesh of about so many vertices; the same one if it has fewer, or is not to be reduced."""
+    mesh = drop_unused(*mesh)
+    if how == "none" or len(mesh[0]) <= vertices:
+        return mesh
+    asked = vertices
+    for _ in range(ATTEMPTS):
+        made = drop_unused(*_REDUCTIONS[how](mesh, asked))
+        missed = vertices / len(made[0])
+        if abs(missed - 1) <= TOLERANCE:
+            break
+        asked = max(round(asked * missed), 4)
+    return made
+
+
+def _collapsed_fast(mesh: TriangleMesh, vertices: int) -> TriangleMesh:
+    import fast_simplification
+
+    made = fast_simplification.simplify(
+        mesh[0].astype(np.float32), mesh[1].astype(np.int32), target_count=_faces_of(vertices)
+    )
+    return np.asarray(made[0], np.float64), np.asarray(made[1], np.int64)
+
+
+def _collapsed_by_meshlab(mesh: TriangleMesh, vertices: int) -> TriangleMesh:
+    from hdpea.benchmark.methods.meshlab import current_mesh, with_mesh
+
+    document = with_mesh(mesh)
+    document.meshing_decimation_quadric_edge_collapse(targetfacenum=_faces_of(vertices))
+    return current_mesh(document)
+
+
+def _clustered(mesh: TriangleMesh, vertices: int) -> TriangleMesh:
+    import pyacvd
+    import pyvista
+
+    with warnings.catch_warnings():
+        # It uses what pyvista will no longer have one day; that is between the two.
+        warnings.simplefilter("ignore")
+        clusters = pyacvd.Clustering(pyvista.PolyData.from_regular_faces(mesh[0], mesh[1].astype(int)))
+        if len(mesh[0]) < CLUSTERED_FROM * vertices:
+            clusters.subdivide(2)
+        clusters.cluster(vertices)
+        made = clusters.create_mesh()
+        return np.asarray(made.points, np.float64), np.asarray(made.regular_faces, np.int64)
+
+
+def _remeshed(mesh: TriangleMesh, vertices: int) -> TriangleMesh:
+    from hdpea.benchmark.methods.geogram import remeshed
+
+    return remeshed(mesh, vertices)
+
+
+def _faces_of(vertices: int) -> int:
+    """Return how many faces a closed mesh of so many vertices has, without handles."""
+    return 2 * vertices - 4
+
+
+_REDUCTIONS = {"fast": _collapsed_fast, "quadric": _collapsed_by_meshlab, "acvd": _clustered, "cvt": _remeshed}

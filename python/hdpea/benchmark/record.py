@@ -1,0 +1,84 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What became of one run: a method on the points of a model, with a budget of vertices."""
+
+from __future__ import annotations
+
+import json
+import re
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass, field
+from hashlib import sha256
+from pathlib import Path
+from typing import Any
+
+from hdpea.outputs import replacing
+
+
+@dataclass(frozen=True)
+class Record:
+    """One run.
+
+    Attributes
+    ----------
+    model, given, method
+        Names of the model, the input and the method.
+    vertices
+        Wanted.
+    key
+        Of all that the mesh and its scores depend on; a run is done again when it changes.
+    failed
+        Why there is no mesh, in a sentence; empty if there is one.
+    seconds, cpu_seconds, peak_bytes
+        Of the method alone, after its libraries were loaded: on the clock, and of all cores together, which a busy
+        machine changes less; peak resident memory of its process.
+    scores
+        As ``Evaluation.as_dict``.
+    """
+
+    model: str
+    given: str
+    method: str
+    vertices: int
+    key: str
+    failed: str = ""
+    seconds: float = 0.0
+    cpu_seconds: float = 0.0
+    peak_bytes: int = 0
+    scores: Mapping[str, Any] = field(default_factory=dict)
+
+    def score(self, path: str) -> float | None:
+        """Return a score by the names on the way to it, such as ``triangles.g``; None where there is none."""
+        found: Any = self.scores
+        for name in path.split("."):
+            found = found.get(name) if isinstance(found, Mapping) else None
+        return None if found is None else float(found)
+
+    @property
+    def stem(self) -> Path:
+        """Where the files of this run lie in a folder of their kind, without their extension."""
+        return Path(*map(file_name, (self.given, self.model, f"{self.method}@{self.vertices}")))
+
+
+def file_name(name: str) -> str:
+    """Return a name as a part of a path."""
+    return re.sub(r"[^\w.@%+-]+", "_", name)
+
+
+def key_of(*what: Any) -> str:
+    """Return a key of anything that JSON can hold."""
+    return sha256(json.dumps(what, sort_keys=True, default=str).encode()).hexdigest()
+
+
+def write_record(path: Path, record: Record) -> None:
+    """Write a record as JSON, whole or not at all."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    with replacing(path) as partial:
+        partial.write_text(json.dumps(asdict(record), indent=1) + "\n")
+
+
+def read_record(path: Path) -> Record | None:
+    """Read a record; None if there is none, or none that this version wrote."""
+    try:
+        return Record(**json.loads(path.read_text()))
+    except (OSError, ValueError, TypeError):
+        return None

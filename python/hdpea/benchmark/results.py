@@ -1,0 +1,93 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The files that a suite ends in: results.csv, results.md, and index.html that holds it all."""
+
+from __future__ import annotations
+
+import os
+import platform
+from collections.abc import Sequence
+from datetime import UTC, datetime
+from pathlib import Path
+
+from hdpea.benchmark.curves import draw_curves
+from hdpea.benchmark.gallery import Gallery
+from hdpea.benchmark.page import write_page
+from hdpea.benchmark.record import Record
+from hdpea.benchmark.suite import Suite
+from hdpea.benchmark.tables import COLUMNS, FLOOR, markdown_table, means_of, quoted_table, write_csv
+from hdpea.evaluation.normalization import NORMALIZATIONS
+from hdpea.outputs import replacing
+from hdpea.version import version
+
+MEANS = "Means over the models that every method finished; the best of each column is bold."
+
+CURVE_COLUMNS = ("exact CD (1e-5)", "exact HD (1e-2)")
+"""Errors that are drawn against the number of vertices."""
+
+
+def write_results(folder: Path, suite: Suite, records: Sequence[Record], gallery: Gallery) -> None:
+    """Write the tables, the curves (``curves-*.svg``) and the page, each whole or not at all.
+
+    Raises
+    ------
+    UsageError
+        If they cannot be written.
+    """
+    write_csv(folder / "results.csv", records)
+    curves = curves_of(suite, records)
+    for name, svg in curves.items():
+        with replacing(folder / f"{name}.svg") as partial:
+            partial.write_text(svg)
+    with replacing(folder / "results.md") as partial:
+        partial.write_text(results_in_markdown(suite, records, curves))
+    write_page(
+        folder / "index.html", suite, records, gallery, curves, [provenance() + ".", unit_sentence(suite), MEANS]
+    )
+
+
+def provenance() -> str:
+    """Return the version, the machine and the day."""
+    cores, day = os.cpu_count(), datetime.now(UTC).date().isoformat()
+    return f"hdpea {version()}, {platform.system()} {platform.machine()}, {cores} cores, {day}"
+
+
+def unit_sentence(suite: Suite) -> str:
+    """Return a sentence about the unit of lengths."""
+    unit = next(each for each in NORMALIZATIONS if each.name == suite.options.normalization)
+    return f"Lengths: {unit.title} of the true surface's box; F1 within {unit.f1_threshold:g}."
+
+
+def results_in_markdown(suite: Suite, records: Sequence[Record], curves: dict[str, str]) -> str:
+    """Return the whole of results.md."""
+    parts = [f"# {suite.options.title or suite.name}", f"{provenance()}. {unit_sentence(suite)} {MEANS}"]
+    for given in suite.inputs:
+        for vertices in suite.options.vertices:
+            parts.append(f"## {given.name}, {vertices:,} vertices")
+            parts.append(markdown_table(means_of(records, suite, given.name, vertices)))
+    parts += [f"![{name}]({name}.svg)" for name in curves]
+    if suite.quoted:
+        parts += ["## Published elsewhere, on other data", quoted_table(suite.quoted)]
+    failures = [f"- {each.stem.as_posix()}: {each.failed}" for each in records if each.failed]
+    if failures:
+        parts += ["## Failures", "\n".join(failures)]
+    return "\n\n".join(parts) + "\n"
+
+
+def curves_of(suite: Suite, records: Sequence[Record]) -> dict[str, str]:
+    """Return SVG pictures of the errors against the vertices by file name; none for a single budget."""
+    if len(suite.options.vertices) < 2:
+        return {}
+    drawn = {}
+    for number, given in enumerate(suite.inputs, start=1):
+        budgets = [means_of(records, suite, given.name, vertices) for vertices in suite.options.vertices]
+        for title in CURVE_COLUMNS:
+            column = next(i for i, each in enumerate(COLUMNS) if each.title == title)
+            curves: dict[str, list[tuple[float, float]]] = {method.name: [] for method in suite.methods}
+            for row in (row for rows in budgets for row in rows if row.method != FLOOR):
+                size, error = row.values[0], row.values[column]
+                if size and error:
+                    curves[row.method].append((size, COLUMNS[column].scale * error))
+            if any(curves.values()):
+                kind = title.split()[1].lower()
+                drawn[f"curves-{number}-{kind}"] = draw_curves(f"{title} against size: {given.name}", title, curves)
+    return drawn

@@ -1,0 +1,69 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""``hdpea benchmark``: many methods on many models, by one command."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+
+from hdpea.cli.parameters import GroupedCommand, GroupedOption, quiet_option
+from hdpea.errors import QualityMissed, UsageError
+
+EPILOG = """\b
+Examples:
+  hdpea benchmark quick results/ --meshes meshes/
+  hdpea benchmark quick results/ --meshes meshes/ --method hdpea
+  hdpea benchmark my_suite.toml results/
+
+\b
+Exit codes: 0 ok, 2 usage or a library is missing, 3 no such suite or meshes,
+5 not one run gave a mesh, 130 interrupted.
+"""
+
+
+@click.command(cls=GroupedCommand, epilog=EPILOG, no_args_is_help=True, short_help="Compare methods on many models.")
+@click.argument("suite")
+@click.argument("output", metavar="OUT", type=click.Path(path_type=Path))
+@click.option("--meshes", cls=GroupedOption, help="folder of the true meshes, or thingi10k:ID,ID")
+@click.option(
+    "--method",
+    "methods",
+    cls=GroupedOption,
+    multiple=True,
+    help="only this one of the suite; may be repeated",
+)
+@quiet_option
+def command(*, suite: str, output: Path, meshes: str | None, methods: tuple[str, ...], quiet: bool) -> None:
+    """Run the methods of SUITE on points of true meshes, measure what they make, and compare it in OUT.
+
+    SUITE is quick, sampling, scans, robustness, normals, points or sizes, or a TOML file of your
+    own: inputs and how they are degraded, methods and their options, numbers of vertices. OUT gets
+    results.csv, results.md, index.html with all tables and pictures in it, and the points and
+    meshes themselves.
+
+    Each run has a process and a time limit of its own. What was finished before is kept: the same
+    command continues a suite that was stopped. Rivals need pip install 'hdpea[benchmark]'.
+    """
+    from hdpea.benchmark.benchmarking import run_suite
+    from hdpea.benchmark.gallery import draw_gallery
+    from hdpea.benchmark.results import write_results
+    from hdpea.benchmark.suite import read_suite
+    from hdpea.picture import check_drawing
+
+    wanted = read_suite(suite, methods)
+    where = meshes or wanted.meshes
+    if not where:
+        raise UsageError("The suite does not say where the meshes are.", "Add --meshes FOLDER.")
+    if wanted.options.pictures:
+        check_drawing()
+
+    def told(line: str) -> None:
+        if not quiet:
+            click.echo(line, err=True)
+
+    records = run_suite(wanted, where, output, told)
+    write_results(output, wanted, records, draw_gallery(wanted, where, output, records, told))
+    told(f"{output / 'index.html'}: {len(records)} runs, {sum(bool(each.failed) for each in records)} failed")
+    if all(each.failed for each in records):
+        raise QualityMissed("Not one run gave a mesh.", f"The reasons are in {output / 'results.md'}.")

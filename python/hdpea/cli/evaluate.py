@@ -1,0 +1,57 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""``hdpea evaluate``: how good a mesh is."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+import click
+
+from hdpea.cli.parameters import GroupedCommand, setting_options
+from hdpea.evaluation.options import EvaluationOptions
+
+EPILOG = """\b
+Examples:
+  hdpea evaluate mesh.obj true.ply
+  hdpea evaluate mesh.obj true.ply --json > scores.json
+  hdpea evaluate mesh.obj scan.xyz
+
+\b
+The scores:
+  CD  mean squared distance one way plus that the other way; smaller is better
+  F1  share of points found, both ways, within a distance; 1 is best
+  NC  mean |n.n'| of nearest points, both ways; 1 is best
+  HD  largest distance of either way; smaller is better
+  G   how equilateral the triangles are under the truth's curvature; 1 is best
+Between samples, CD, F1, NC and HD end at their floor: the scores of the truth
+against itself. Exact distances, from samples to the other surface, have none;
+the largest is over the vertices, too.
+
+\b
+Exit codes: 0 ok, 2 usage, 3 unreadable input, 4 a surface without extent.
+"""
+
+
+@click.command(cls=GroupedCommand, epilog=EPILOG, no_args_is_help=True, short_help="Measure a mesh against the truth.")
+@click.argument("result", type=click.Path(path_type=Path))
+@click.argument("truth", type=click.Path(path_type=Path))
+@click.option("--json", "as_json", is_flag=True, help="print everything as JSON, lengths unscaled")
+@setting_options("run", owner=EvaluationOptions, heading="Sampling")
+def command(result: Path, truth: Path, as_json: bool, **values: Any) -> None:
+    """Measure the mesh RESULT against the true surface TRUTH, in the same units and frame.
+
+    RESULT is PLY, OBJ, STL, OFF or GLB; TRUTH is such a mesh, or a point cloud, of which less can
+    be said. Lengths are given twice: as shares of the longest side of the truth's bounding box, as
+    in the papers of NDC and PoNQ, and of its diagonal, as in that of NASM.
+    """
+    from hdpea.evaluation.evaluating import evaluate
+    from hdpea.evaluation.table import describe
+    from hdpea.evaluation.truth import read_truth
+    from hdpea.reading.triangle_mesh import read_triangle_mesh
+    from hdpea.settings import filled
+
+    vertices, faces = read_triangle_mesh(result)
+    evaluation = evaluate(vertices, faces, read_truth(truth, filled(EvaluationOptions, values)))
+    click.echo(json.dumps(evaluation.as_dict(), indent=2) if as_json else describe(evaluation))

@@ -1,0 +1,86 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The curvature metric of the true surface, and how equilateral triangles are under it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hdpea import _core
+
+Rows = NDArray[np.float64]
+
+SAMPLES = 30_000
+"""Points of the surface that curvature is known at."""
+
+SHARED_BY = 40
+"""Samples within the radius in which curvature is fitted: it is that of a disk of 40/30,000 of the area."""
+
+NEIGHBORS = 80
+"""Nearest samples looked at: even where two sheets are near, all of one sheet within the radius."""
+
+LEAST_COSINE = -0.2
+"""Of the normals of samples on the same sheet."""
+
+FLAT = 1.0
+"""Curvature, in 1 / longest side, below which a surface counts as flat."""
+
+MOST_STRETCHED = 10.0
+"""Largest ratio of the metric's stretches."""
+
+
+@dataclass(frozen=True)
+class CurvatureMetric:
+    """The square roots (n, 3, 3) of the metric tensors at points (n, 3) of a surface whose longest side is 1."""
+
+    points: Rows
+    roots: Rows
+
+    def qualities(self, vertices: Rows, faces: NDArray[np.int64]) -> Rows:
+        """Return G (f,) of triangles: 1 where they are equilateral under the metric, 0 where they have no area.
+
+        A triangle is mapped by the mean root of its corners, each that of the nearest point of the surface.
+        """
+        nearest = _core.nearest_neighbors(self.points, vertices, 1)[:, 0]
+        roots = self.roots[nearest][faces].mean(axis=1)
+        offsets = vertices[faces] - vertices[faces[:, :1]]
+        return triangle_qualities(np.einsum("fij,fkj->fki", roots, offsets))
+
+
+def curvature_metric(points: Rows, normals: Rows, area: float) -> CurvatureMetric:
+    """Return the metric M = |k1| e1 e1^T + |k2| (e2 e2^T + n n^T) at samples of a surface.
+
+    The stretch along a principal direction is sqrt|k|, so that triangles equilateral under M are sqrt|k1 / k2| as
+    long as wide, which is L2-optimal (Simpson, 1994). |k| is raised to ``FLAT``, and to |k1| / ``MOST_STRETCHED``^2.
+
+    Parameters
+    ----------
+    points, normals
+        (n, 3), n > 0, about even by area; the longest side of the surface is 1.
+    area
+        Of the surface.
+    """
+    # The radius is a share of the area, whatever the number of samples and however the surface is triangulated.
+    radius = float(np.sqrt(area * SHARED_BY / SAMPLES / np.pi))
+    neighbors = _core.nearest_neighbors(points, min(NEIGHBORS, max(len(points) - 1, 1)))
+    across = np.einsum("nkc,nc->nk", normals[neighbors], normals) <= LEAST_COSINE
+    curvature = _core.estimate_curvature(points, normals, np.where(across, -1, neighbors), radius)
+    directions = np.stack([curvature.direction1, np.cross(normals, curvature.direction1), normals], axis=1)
+    k1, k2 = np.maximum(abs(curvature.principal), FLAT).T
+    k2 = np.maximum(k2, k1 / MOST_STRETCHED**2)
+    roots = np.sqrt(np.stack([k1, k2, k2], axis=1))
+    return CurvatureMetric(points, np.einsum("nd,ndi,ndj->nij", roots, directions, directions))
+
+
+def triangle_qualities(corners: Rows) -> Rows:
+    """Return 2 sqrt(3) S / (p h) (f,) of triangles (f, 3, d): area, half perimeter, longest edge; 1 if equilateral.
+
+    From Frey and Borouchaki, Surface mesh quality evaluation, 1999; the paper's G.
+    """
+    edges = np.roll(corners, -1, axis=1) - corners
+    lengths = np.linalg.norm(edges, axis=2)
+    areas = np.linalg.norm(np.cross(edges[:, 0], edges[:, 1]), axis=1) / 2
+    sizes = lengths.sum(axis=1) / 2 * lengths.max(axis=1)
+    return np.asarray(2 * np.sqrt(3) * areas / np.where(sizes > 0, sizes, 1))

@@ -1,0 +1,147 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What is made of the records of a suite: means, tables, curves, error maps."""
+
+from __future__ import annotations
+
+import csv
+from pathlib import Path
+from typing import Any
+from xml.etree import ElementTree
+
+import numpy as np
+import pytest
+import trimesh
+
+from hdpea.benchmark.curves import draw_curves
+from hdpea.benchmark.drawing import ERROR_COLORS, RED_FROM, error_colors, subdivided
+from hdpea.benchmark.record import Record, key_of, read_record, write_record
+from hdpea.benchmark.results import curves_of, results_in_markdown
+from hdpea.benchmark.suite import Quoted, Suite, SuiteInput, SuiteMethod, SuiteOptions
+from hdpea.benchmark.tables import FLOOR, best_of, markdown_table, means_of, write_csv
+from hdpea.dataset.options import DegradationOptions, SampleOptions, ScanOptions
+from hdpea.triangles import mesh_area
+
+SUITE = Suite(
+    "test",
+    SuiteOptions(vertices=(100, 1000)),
+    (SuiteInput("clean", SampleOptions(), ScanOptions(), DegradationOptions()),),
+    (SuiteMethod("ours", "hdpea", {}), SuiteMethod("theirs", "poisson", {})),
+    (Quoted("far away", "table 7", vertices=5180, chamfer=0.496),),
+)
+
+
+def record(model: str, method: str, chamfer: float, vertices: int = 100, **other: Any) -> Record:
+    samples = {"chamfer": 2 * chamfer, "f1": 0.9, "normal_consistency": None, "hausdorff": 0.01}
+    accuracy = {"chamfer": chamfer, "hausdorff": 0.01, "samples": samples, "floor": {**samples, "chamfer": 1e-6}}
+    scores = {"topology": {"vertices": vertices - 1, "manifold": True}, "accuracy": {"longest_side": accuracy}}
+    return Record(model, "clean", method, vertices, "key", scores=scores, **other)
+
+
+def failure(model: str, method: str, vertices: int = 100) -> Record:
+    return Record(model, "clean", method, vertices, "key", failed="It took longer than 1 s.")
+
+
+RECORDS = [
+    record("a", "ours", 1e-5),
+    record("b", "ours", 9e-5),
+    record("a", "theirs", 3e-5, seconds=2.0),
+    failure("b", "theirs"),
+    record("a", "ours", 1e-6, 1000),
+    record("b", "ours", 1e-6, 1000),
+    failure("a", "theirs", 1000),
+    failure("b", "theirs", 1000),
+]
+
+
+def test_means_are_over_what_every_method_finished() -> None:
+    ours, theirs, floor = means_of(RECORDS, SUITE, "clean", 100)
+    assert (ours.finished, ours.tried, theirs.finished, theirs.tried) == (2, 2, 1, 2)
+    assert (ours.values[1], theirs.values[1]) == (1e-5, 3e-5)
+    assert theirs.times[0] == 2.0
+    assert (floor.method, floor.values[4]) == (FLOOR, 1e-6)
+
+
+def test_a_method_that_finished_nothing_does_not_take_the_models_from_the_others() -> None:
+    ours, theirs, _ = means_of(RECORDS, SUITE, "clean", 1000)
+    assert (ours.finished, ours.values[1]) == (2, 1e-6)
+    assert theirs.finished == 0
+    assert set(theirs.values) == {None}
+
+
+def test_the_best_are_bold_and_ties_are_not() -> None:
+    means = means_of(RECORDS, SUITE, "clean", 100)
+    assert best_of(means) == {("ours", 1), ("ours", 4)}
+    table = markdown_table(means).splitlines()
+    assert table[2].startswith("| ours | 2/2 | 99 | **1.000** | 1.000 |")
+    assert table[3].startswith("| theirs | 1/2 | 99 | 3.000 | 1.000 |")
+    assert len({line.count("|") for line in table}) == 1
+
+
+def test_the_page_of_results_says_all_of_it() -> None:
+    told = results_in_markdown(SUITE, RECORDS, {})
+    for part in ("## clean, 100 vertices", "far away (quoted) | table 7", "0.496", "theirs@1000: It took longer"):
+        assert part in told
+
+
+def test_every_score_is_in_the_csv(tmp_path: Path) -> None:
+    write_csv(tmp_path / "results.csv", RECORDS)
+    with (tmp_path / "results.csv").open() as file:
+        rows = list(csv.DictReader(file))
+    assert len(rows) == len(RECORDS)
+    assert float(rows[0]["accuracy.longest_side.chamfer"]) == 1e-5
+    assert (rows[3]["failed"], rows[3]["accuracy.longest_side.chamfer"]) == ("It took longer than 1 s.", "")
+
+
+def test_records_are_kept(tmp_path: Path) -> None:
+    path = tmp_path / "runs" / "record.json"
+    assert read_record(path) is None
+    write_record(path, RECORDS[0])
+    assert read_record(path) == RECORDS[0]
+    path.write_text("{")
+    assert read_record(path) is None
+
+
+def test_keys_tell_apart() -> None:
+    assert key_of({"a": 1, "b": 2}) == key_of({"b": 2, "a": 1})
+    assert key_of({"a": 1}) != key_of({"a": 2})
+
+
+def test_names_become_names_of_files() -> None:
+    stem = Record("folder/model", "noise 0.3 %", "Poisson, ACVD", 100, "").stem
+    assert stem.as_posix() == "noise_0.3_%/folder_model/Poisson_ACVD@100"
+
+
+def test_curves_go_down_where_errors_do() -> None:
+    svg = draw_curves("t", "error", {"a": [(1000, 1.0), (100, 10.0)], "b & c": [(100, 5.0)], "none": []})
+    root = ElementTree.fromstring(svg)  # noqa: S314 it is our own
+    circles = [
+        (float(each.get("cx", 0)), float(each.get("cy", 0))) for each in root.iter() if each.tag.endswith("circle")
+    ]
+    (left, top), (right, bottom), (_, middle) = circles
+    assert left < right
+    assert top < middle < bottom  # SVG counts downwards
+    texts = [each.text for each in root.iter() if each.tag.endswith("text")]
+    assert {"b & c", "100", "1,000", "10"} <= set(texts)
+    assert "none" not in texts
+
+
+def test_curves_are_drawn_for_several_sizes() -> None:
+    assert list(curves_of(SUITE, RECORDS)) == ["curves-1-cd", "curves-1-hd"]
+    assert curves_of(Suite("one", SuiteOptions(), SUITE.inputs, SUITE.methods), RECORDS) == {}
+
+
+def test_error_maps_show_the_same_surface_in_small_triangles() -> None:
+    mesh = trimesh.creation.icosphere(1)
+    vertices, faces = np.asarray(mesh.vertices), np.asarray(mesh.faces)
+    fine = subdivided(vertices, faces, 0.1)
+    assert mesh_area(*fine) == pytest.approx(mesh_area(vertices, faces))
+    assert np.linalg.norm(np.diff(fine[0][fine[1]], axis=1), axis=2).max() <= 0.1
+    normals = np.cross(*(fine[0][fine[1]][:, k] - fine[0][fine[1]][:, 0] for k in (1, 2)))
+    assert (np.einsum("fc,fc->f", normals, fine[0][fine[1]][:, 0]) > 0).all()
+    whole = subdivided(vertices, faces, 10)
+    np.testing.assert_allclose(whole[0][whole[1]], vertices[faces])
+
+
+def test_colours_of_errors_end_where_f1_counts_a_point_as_lost() -> None:
+    colors = error_colors(np.array([0, RED_FROM, 10]))
+    np.testing.assert_array_equal(colors, ERROR_COLORS[[0, -1, -1]])
