@@ -1,0 +1,130 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Point Transformer V3 (Wu et al. 2024) in plain PyTorch: from points and normals to psi."""
+
+from __future__ import annotations
+
+import torch
+from torch import Tensor, nn
+
+from hdpea.network.clouds import Clouds
+from hdpea.network.curves import CURVES
+from hdpea.network.layers import Block, rows
+from hdpea.network.options import NetworkOptions
+from hdpea.network.stem import EdgeStem
+from hdpea.network.voxels import MIDDLE, Voxels
+
+LENGTH = 0.005
+"""What the network counts lengths in, unit frame: about the distance to the 6th neighbour in 40,000 points."""
+
+OUTPUTS = 5
+"""The dimensions of psi."""
+
+ORIGIN = 0.381966
+"""Where the centre of a cloud lies in its voxel: a symmetric cloud must have no plane of points between voxels."""
+
+
+class PointTransformer(nn.Module):
+    """The network: features of points, a U-Net of voxels, psi of points.
+
+    It sees no coordinates but those relative to a neighbour or a voxel, so a crop looks the same wherever it is
+    cut from. Weights start from ``options.seed`` and nothing else.
+    """
+
+    def __init__(self, options: NetworkOptions) -> None:
+        super().__init__()
+        self.options = options
+        with torch.random.fork_rng(devices=[]):
+            torch.manual_seed(options.seed)
+            self._build(options)
+
+    def _build(self, o: NetworkOptions) -> None:
+        self.stem = EdgeStem(o.stem_channels, o.stem_neighbors) if o.stem else None
+        point_channels = 6 + (o.stem_channels if o.stem else 0)
+        self.enter = _mapped(point_channels, o.channels[0])
+        self.down = nn.ModuleList(_mapped(*pair) for pair in zip(o.channels, o.channels[1:], strict=False))
+        self.encoder = nn.ModuleList(self._blocks(*each) for each in zip(o.channels, o.depths, strict=True))
+        below = (*o.decoder_channels[1:], o.channels[-1])
+        self.up = nn.ModuleList(_mapped(*pair) for pair in zip(below, o.decoder_channels, strict=True))
+        skips = zip(o.channels, o.decoder_channels, strict=False)
+        self.across = nn.ModuleList(_mapped(*pair) for pair in skips)
+        decoder = zip(o.decoder_channels, o.decoder_depths, strict=True)
+        self.decoder = nn.ModuleList(self._blocks(*each) for each in decoder)
+        width = o.decoder_channels[0] if o.decoder_channels else o.channels[0]
+        self.leave = _mapped(width + point_channels, width)
+        self.psi = nn.Linear(width, OUTPUTS)
+
+    def _blocks(self, channels: int, depth: int) -> nn.ModuleList:
+        o = self.options
+        return nn.ModuleList(Block(channels, o.head_width, o.patch_size, o.mlp_ratio) for _ in range(depth))
+
+    def forward(self, clouds: Clouds) -> Tensor:
+        """Return psi (n, 5) float32 in the unit frame, of points (n, 3) in the unit frame."""
+        voxels, index, features = self._points(clouds)
+        x = self._unet(_pooled(self.enter(features), index, len(voxels.cells)), voxels)
+        x = self.leave(torch.cat([rows(x, index), features], dim=1))
+        psi = LENGTH * self.psi(x)  # (n, 5)
+        share = self.options.normal_share
+        if share:
+            psi = psi + nn.functional.pad(share * clouds.normals, (0, OUTPUTS - 3))
+        for _ in range(self.options.smoothing):
+            psi = _smoothed(psi, clouds.normals, clouds.neighbors[:, : self.options.stem_neighbors])
+        return psi
+
+    def _points(self, clouds: Clouds) -> tuple[Voxels, Tensor, Tensor]:
+        """Return the finest voxels, that of each point (n,), and the features of points (n, c)."""
+        places = clouds.points / self.options.voxel + ORIGIN  # (n, 3)
+        cells = places.floor()
+        voxels, index = Voxels.holding(cells.long() + MIDDLE, clouds.batch)
+        features = [places - cells - 0.5, clouds.normals]
+        if self.stem is not None:
+            features.append(self.stem(clouds.points / LENGTH, clouds.normals, clouds.neighbors))
+        return voxels, index, torch.cat(features, dim=1)
+
+    def _unet(self, x: Tensor, voxels: Voxels) -> Tensor:
+        """Map features (v, c) of the finest voxels to those of the decoder (v, c)."""
+        skips: list[tuple[Tensor, Voxels, Tensor]] = []
+        curves = self._curves()
+        for level, blocks in enumerate(self.encoder):
+            if level:
+                coarser, index = voxels.coarser()
+                skips.append((x, voxels, index))
+                x, voxels = _pooled(self.down[level - 1](x), index, len(coarser.cells)), coarser
+            x = self._run(blocks, x, voxels, curves)
+        for level in reversed(range(len(skips))):
+            skip, voxels, index = skips[level]
+            x = rows(self.up[level](x), index) + self.across[level](skip)
+            x = self._run(self.decoder[level], x, voxels, curves)
+        return x
+
+    def _curves(self) -> list[int]:
+        """Return the curves in the order in which blocks take turns: shuffled in training, else as listed."""
+        shuffled: list[int] = torch.randperm(len(CURVES)).tolist()
+        return shuffled if self.training else list(range(len(CURVES)))
+
+    @staticmethod
+    def _run(blocks: nn.Module, x: Tensor, voxels: Voxels, curves: list[int]) -> Tensor:
+        for turn, block in enumerate(blocks.children()):
+            x = block(x, voxels, voxels.orders[curves[turn % len(curves)]])
+        return x
+
+
+def _mapped(inputs: int, outputs: int) -> nn.Sequential:
+    return nn.Sequential(nn.Linear(inputs, outputs), nn.LayerNorm(outputs), nn.GELU())
+
+
+def _pooled(x: Tensor, index: Tensor, count: int) -> Tensor:
+    """Return the mean (count, c) of features (n, c) by the voxel that they lie in."""
+    sums = torch.zeros(count, x.shape[1], dtype=x.dtype, device=x.device).index_add(0, index, x)
+    return sums / torch.bincount(index, minlength=count)[:, None]
+
+
+def _smoothed(psi: Tensor, normals: Tensor, neighbors: Tensor) -> Tensor:
+    """Return psi (n, 5) averaged over each point and its neighbours, the less the more their normals differ.
+
+    What the network says varies from point to point more than psi can, and meshing asks for planes that agree;
+    the far side of a thin wall has no say.
+    """
+    cosine = (rows(normals, neighbors) * normals[:, None]).sum(dim=2)  # (n, k)
+    weight = ((1 + cosine) / 2).clamp_min(0).square()
+    nearby = (rows(psi, neighbors) * weight[:, :, None]).sum(dim=1)  # (n, 5)
+    return (psi + nearby) / (1 + weight.sum(dim=1, keepdim=True))
