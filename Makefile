@@ -58,7 +58,7 @@ $(VENV)/.dependencies: pyproject.toml $(CONSTRAINTS) | debian
 # Not isolated, since an isolated build would compile nanobind anew each time.
 $(VENV)/.package: $(VENV)/.dependencies $(PACKAGE_SOURCES)
 	@echo "== Building and installing hdpea into $(VENV)/"
-	$(BIN)/pip install -qq -c $(CONSTRAINTS) --no-build-isolation '.[picture]'
+	$(BIN)/pip install -qq -c $(CONSTRAINTS) --no-build-isolation '.[dataset,picture]'
 	@touch $@
 
 setup: debian $(VENV)/.package

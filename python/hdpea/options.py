@@ -19,22 +19,25 @@ POINTS_PER_VERTEX = 8
 
 
 def option(default: Any, help: str, **metadata: Any) -> Any:
-    """Return a dataclass field that carries its help text and what is legal: ``choices`` or a ``minimum``."""
+    """Return a dataclass field that carries its help text and what is legal: ``choices``, ``minimum``, ``maximum``."""
     return field(default=default, metadata={"help": help, **metadata})
 
 
 def _check(field: Field[Any], value: Any) -> None:
-    choices, minimum = field.metadata.get("choices"), field.metadata.get("minimum")
+    choices = field.metadata.get("choices")
+    minimum, maximum = field.metadata.get("minimum"), field.metadata.get("maximum")
     if choices is not None and value not in choices:
         raise UsageError(f"{field.name} is one of {', '.join(choices)}, not {value!r}.")
     # Written so that NaN is refused too.
     if minimum is not None and value is not None and not value >= minimum:
         raise UsageError(f"{field.name} is at least {minimum}, not {value}.")
+    if maximum is not None and value is not None and not value <= maximum:
+        raise UsageError(f"{field.name} is at most {maximum}, not {value}.")
 
 
 @dataclass(frozen=True)
 class Checked:
-    """Base of the options: checks every value against its field's choices and minimum."""
+    """Base of the options: checks every value against its field's choices, minimum and maximum."""
 
     def __post_init__(self) -> None:
         for each in fields(self):

@@ -6,10 +6,12 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, fields, is_dataclass
 from types import NoneType
-from typing import Any, get_args, get_type_hints
+from typing import Any, TypeVar, get_args, get_type_hints
 
 from hdpea.lengths import Length
 from hdpea.options import Options
+
+Chosen = TypeVar("Chosen")
 
 RUN = "run"
 """The stage of a setting that belongs to the run as a whole."""
@@ -20,7 +22,7 @@ class Setting:
     """One field of one options dataclass.
 
     ``kind`` is the type of its value (int, float, bool, str or Length); ``stage`` the field of
-    ``Options`` it lies in, or ``RUN``.
+    the options it lies in, or ``RUN``.
     """
 
     name: str
@@ -31,10 +33,22 @@ class Setting:
     choices: tuple[str, ...] | None
 
 
-def settings() -> list[Setting]:
-    """Return every setting, stage by stage in the order of the run; names are unique."""
-    nested = {each.name: type(each.default) for each in fields(Options) if is_dataclass(each.default)}
-    return [each for stage, owner in nested.items() for each in _of(owner, stage)] + list(_of(Options, RUN))
+def settings(owner: type[Any] = Options) -> list[Setting]:
+    """Return every setting of the options class `owner`, stage by stage in the order of the run.
+
+    Names are unique: a field that several stages have, such as a seed, is one setting for all of them.
+    """
+    unique: dict[str, Setting] = {}
+    for each in _all(owner):
+        unique.setdefault(each.name, each)
+    return list(unique.values())
+
+
+def _all(owner: type[Any]) -> Iterator[Setting]:
+    for each in fields(owner):
+        if is_dataclass(each.default):
+            yield from _of(type(each.default), each.name)
+    yield from _of(owner, RUN)
 
 
 def _of(owner: type[Any], stage: str) -> Iterator[Setting]:
@@ -46,7 +60,12 @@ def _of(owner: type[Any], stage: str) -> Iterator[Setting]:
 
 
 def options_from(values: Mapping[str, Any]) -> Options:
-    """Return the options with the given settings, and the defaults for the others.
+    """Return the options of a reconstruction, as ``filled`` does."""
+    return filled(Options, values)
+
+
+def filled(owner: type[Chosen], values: Mapping[str, Any]) -> Chosen:
+    """Return the options of class `owner` with the given settings, and the defaults for the others.
 
     Raises
     ------
@@ -54,17 +73,17 @@ def options_from(values: Mapping[str, Any]) -> Options:
         If a value is illegal.
     """
     given: dict[str, dict[str, Any]] = {}
-    for each in settings():
+    for each in _all(owner):
         if each.name in values:
             given.setdefault(each.stage, {})[each.name] = values[each.name]
     run = given.pop(RUN, {})
-    return Options(**{stage: type(getattr(Options, stage))(**chosen) for stage, chosen in given.items()}, **run)
+    return owner(**{stage: type(getattr(owner, stage))(**chosen) for stage, chosen in given.items()}, **run)
 
 
-def as_dict(options: Options) -> dict[str, dict[str, Any]]:
+def as_dict(options: object) -> dict[str, dict[str, Any]]:
     """Return the settings by stage and name, lengths as users write them; fit for JSON."""
     listed: dict[str, dict[str, Any]] = {}
-    for each in settings():
+    for each in _all(type(options)):
         owner = options if each.stage == RUN else getattr(options, each.stage)
         value = getattr(owner, each.name)
         listed.setdefault(each.stage, {})[each.name] = str(value) if isinstance(value, Length) else value

@@ -1,14 +1,20 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import Any
 
 import pytest
 
 from hdpea.errors import UsageError
 from hdpea.lengths import Length
-from hdpea.options import MeshingOptions, Options
+from hdpea.options import Checked, MeshingOptions, Options, option
 from hdpea.settings import as_dict, options_from, settings
+
+
+@dataclass(frozen=True)
+class _Shared(Checked):
+    share: float = option(0.5, "a share", minimum=0, maximum=1)
 
 
 def test_defaults_are_legal_and_the_same_from_everywhere() -> None:
@@ -51,6 +57,12 @@ def test_report_shows_lengths_as_the_user_writes_them() -> None:
 def test_illegal_values_are_refused(name: str, value: Any) -> None:
     with pytest.raises(UsageError, match=name):
         options_from({name: value})
+
+
+@pytest.mark.parametrize("share", [-0.1, 1.1, float("nan")])
+def test_values_have_a_maximum_too(share: float) -> None:
+    with pytest.raises(UsageError, match="share is at"):
+        _Shared(share)
 
 
 def test_vertices_and_faces_exclude_each_other() -> None:

@@ -55,10 +55,16 @@ class GroupedCommand(click.Command):
 quiet_option = click.option("--quiet", cls=GroupedOption, is_flag=True, help="say nothing but errors")
 
 
-def setting_options(*stages: str, also: Collection[str] = ()) -> Callable[[Decorated], Decorated]:
-    """Add a flag for every setting of the given stages, in their order, and for those settings `also`."""
-    chosen = [each for each in settings() if each.name in also]
-    chosen += [each for stage in stages for each in settings() if each.stage == stage]
+def setting_options(
+    *stages: str, also: Collection[str] = (), without: Collection[str] = (), owner: type[Any] = Options
+) -> Callable[[Decorated], Decorated]:
+    """Add a flag for every setting of the given stages of the options `owner`, in their order.
+
+    Settings `also` are added from whatever stage, those `without` are left out.
+    """
+    known = [each for each in settings(owner) if each.name not in without]
+    chosen = [each for each in known if each.name in also]
+    chosen += [each for stage in stages for each in known if each.stage == stage and each.name not in also]
 
     def decorate(function: Decorated) -> Decorated:
         # Decorators work from the last to the first.
@@ -75,7 +81,7 @@ def _flag(setting: Setting) -> Callable[[Decorated], Decorated]:
     return click.option(
         f"{flag}/--no-{flag[2:]}" if setting.kind is bool else flag,
         cls=GroupedOption,
-        group=setting.stage.capitalize(),
+        group=setting.stage.replace("_", " ").capitalize(),
         type=click.Choice(setting.choices) if setting.choices else kinds.get(setting.kind, setting.kind),
         default=setting.default,
         show_default=setting.default is not None,

@@ -17,3 +17,59 @@ class GroundTruthOptions(Checked):
     bending_length: float = option(0.006, "length below which the embedding does not bend", minimum=0)
     metric_scale: float = option(0.5, "c of the metric s^2 = c |k|: larger stretches more", minimum=0)
     max_stretch: float = option(8.0, "largest stretch of the metric in any direction", minimum=1)
+
+
+@dataclass(frozen=True)
+class SamplingOptions(Checked):
+    """How points are drawn of a mesh."""
+
+    points: int = option(40_000, "points to draw", minimum=1)
+    method: str = option(
+        "area", "area: uniform by area; farthest: each far from the others", choices=("area", "farthest")
+    )
+    seed: int = option(0, "seed of everything random; the same seed gives the same points", minimum=0)
+
+
+@dataclass(frozen=True)
+class ScanOptions(Checked):
+    """How a mesh is scanned by a simulated range sensor; lengths are shares of its bounding-box diagonal."""
+
+    points: int = option(40_000, "points to return", minimum=1)
+    kind: str = option(
+        "views",
+        "views: a depth camera all around; turntable: a sensor above the horizon, the model turning about z",
+        choices=("views", "turntable"),
+    )
+    views: int = option(12, "places from where the sensor looks", minimum=1)
+    coverage: float = option(1.0, "share of all directions (turntable: of a turn) seen from", minimum=0.01, maximum=1)
+    distance: float = option(1.5, "from the sensor to the middle of the model", minimum=0.6)
+    noise: float = option(0.0005, "std of the range of a surface that faces the sensor, at that distance", minimum=0)
+    grazing: float = option(
+        75.0, "degrees between ray and normal beyond which fewer and fewer rays return", minimum=0, maximum=90
+    )
+    seed: int = option(0, "seed of everything random; the same seed gives the same points", minimum=0)
+
+
+@dataclass(frozen=True)
+class SampleOptions(Checked):
+    """What a sample is made of."""
+
+    kind: str = option(
+        "area",
+        "area: points at random, even by area; farthest: each far from the others; scan: as sensors see the surface",
+        choices=("area", "farthest", "scan"),
+    )
+    estimate: bool = option(False, "add normals estimated from the points alone, for training on what scans have")
+    augmented: bool = option(False, "write all ten augmentations, for a release; otherwise they are made on loading")
+
+
+@dataclass(frozen=True)
+class DatasetOptions(Checked):
+    """Everything ``hdpea.dataset.building.build_dataset`` can be told; the manifest holds all but the run's own."""
+
+    sample: SampleOptions = SampleOptions()
+    sampling: SamplingOptions = SamplingOptions()
+    scanning: ScanOptions = ScanOptions()
+    ground_truth: GroundTruthOptions = GroundTruthOptions()
+    jobs: int = option(0, "meshes at a time, which share the cores; 0: one for each core", minimum=0)
+    time_limit: float = option(3600, "seconds after which a mesh is given up and skipped", minimum=0)

@@ -22,7 +22,7 @@ from hdpea.reading.meshes import parse_obj, parse_off
 from hdpea.reading.ply import parse_ply
 from hdpea.reading.text import parse_text
 
-__all__ = ["PointCloud", "parse_points", "read_points"]
+__all__ = ["DAMAGE", "PointCloud", "parse_points", "read_bytes", "read_points"]
 
 _FORMATS: list[tuple[re.Pattern[bytes], Callable[[bytes], PointCloud]]] = [
     (re.compile(rb"ply\s"), parse_ply),
@@ -75,14 +75,21 @@ def read_points(path: str | PurePath) -> PointCloud:
         If the file is missing, cannot be opened, is damaged, of an unknown format, or has no points.
     """
     name = "standard input" if str(path) == "-" else str(path)
-    data = sys.stdin.buffer.read() if str(path) == "-" else _read_bytes(Path(path))
+    data = sys.stdin.buffer.read() if str(path) == "-" else read_bytes(Path(path))
     try:
         return cleaned(parse_points(data, Path(path).suffix.lower()))
     except UnreadableInput as error:
         raise UnreadableInput(f"Cannot read {name}: {error.message}", error.hint) from error
 
 
-def _read_bytes(path: Path) -> bytes:
+def read_bytes(path: Path) -> bytes:
+    """Return the content of a file.
+
+    Raises
+    ------
+    UnreadableInput
+        If it is missing or cannot be opened.
+    """
     try:
         return path.read_bytes()
     except FileNotFoundError as error:
@@ -90,7 +97,7 @@ def _read_bytes(path: Path) -> bytes:
         hint = f"Did you mean {near}?" if near else "Check the spelling and the folder."
         raise UnreadableInput(f"There is no file {path}.", hint) from error
     except IsADirectoryError as error:
-        raise UnreadableInput(f"{path} is a folder, not a file.", "Give one file of points.") from error
+        raise UnreadableInput(f"{path} is a folder, not a file.", "Give one file.") from error
     except OSError as error:
         raise UnreadableInput(f"Cannot read {path}: {error.strerror}.", "Check its permissions.") from error
 

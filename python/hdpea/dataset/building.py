@@ -1,0 +1,174 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A dataset of many meshes: built in parallel, continued where it was stopped, whatever single meshes do."""
+
+from __future__ import annotations
+
+import os
+import time
+import zlib
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from hashlib import sha256
+from pathlib import Path
+
+from hdpea.dataset.augmentation import TRANSFORMS, augmented
+from hdpea.dataset.card import write_card
+from hdpea.dataset.folder import open_folder
+from hdpea.dataset.isolation import Outcome, run_isolated
+from hdpea.dataset.making import make_sample
+from hdpea.dataset.manifest import Manifest, MeshEntry, SampleEntry, write_manifest
+from hdpea.dataset.options import DatasetOptions
+from hdpea.dataset.recorded_options import recorded_options
+from hdpea.dataset.sample_file import encoded
+from hdpea.dataset.sources import MeshSource, find_meshes
+from hdpea.dataset.surface_file import read_surface
+from hdpea.errors import QualityMissed, core_errors_translated
+from hdpea.outputs import replacing
+from hdpea.version import version
+
+IDENTITY = "identity"
+
+
+@dataclass(frozen=True)
+class Task:
+    """What a process needs to know to make the samples of one mesh."""
+
+    source: MeshSource
+    options: DatasetOptions
+    seed: int
+    threads: int
+
+
+@dataclass(frozen=True)
+class MadeSample:
+    """The file of a sample, and the augmentation it holds, if any."""
+
+    augmentation: str | None
+    points: int
+    content: bytes
+
+
+Maker = Callable[[Task], Sequence[MadeSample]]
+
+
+@dataclass(frozen=True)
+class Built:
+    """What a build came to: the manifest, and how many of its meshes were `kept` from an earlier run."""
+
+    manifest: Manifest
+    kept: int
+    seconds: float
+
+
+def build_dataset(
+    where: str,
+    folder: Path,
+    options: DatasetOptions | None = None,
+    told: Callable[[str], None] = lambda _: None,
+    make: Maker | None = None,
+) -> Built:
+    """Build the dataset of the meshes that `where` names (see ``find_meshes``) in `folder`, or continue to.
+
+    A mesh that cannot be used is skipped, and the manifest says why. What an earlier run with the same options
+    finished is kept. The bytes depend on the meshes, the options and the version only; not on the number of jobs,
+    nor on whether a run was killed in between.
+
+    Parameters
+    ----------
+    told
+        Is given a line about each mesh.
+    make
+        What makes the samples of a mesh, in a process of its own; default: ``make_samples``.
+
+    Raises
+    ------
+    UnreadableInput
+        If there are no meshes.
+    UsageError
+        If `folder` cannot be written, or holds anything but a dataset of these meshes and options.
+    QualityMissed
+        If not one mesh could be used.
+    """
+    started, options = time.perf_counter(), options or DatasetOptions()
+    sources = find_meshes(where)
+    manifest = Manifest(version(), recorded_options(options))
+    finished = open_folder(folder, manifest, sources)
+    done = dict(finished)
+    for name in done:
+        told(f"{name}: is there already")
+    jobs = options.jobs or os.cpu_count() or 1
+    tasks = [
+        Task(source, options, seed_of(source.name, options.sampling.seed), max((os.cpu_count() or 1) // jobs, 1))
+        for source in sources
+        if source.name not in done
+    ]
+    for outcome in run_isolated(make or make_samples, tasks, jobs, options.time_limit):
+        entry = _entry(folder, tasks[outcome.index], outcome)
+        done[entry.name] = entry
+        manifest = replace(manifest, meshes=tuple(done[name] for name in sorted(done)))
+        write_manifest(folder, manifest)
+        told(f"{entry.name}: {_described(entry, outcome.seconds)} ({len(done)} of {len(sources)})")
+    manifest = replace(manifest, meshes=tuple(done[name] for name in sorted(done)))
+    write_manifest(folder, manifest)
+    write_card(folder, manifest)
+    if not manifest.samples:
+        raise QualityMissed(f"None of the {len(sources)} meshes could be used.", "The reasons are above.")
+    return Built(manifest, len(finished), time.perf_counter() - started)
+
+
+def seed_of(name: str, seed: int) -> int:
+    """Return the seed of a mesh, which depends on nothing but its name and the dataset's seed."""
+    return zlib.crc32(f"{seed}:{name}".encode())
+
+
+def make_samples(task: Task) -> list[MadeSample]:
+    """Return the samples of a mesh: one, or all ten augmentations if they are to be written.
+
+    Raises
+    ------
+    UnreadableInput
+        If the mesh cannot be read.
+    CannotReconstruct
+        If it is not the closed surface of something, or cannot be embedded.
+    """
+    from hdpea import _core
+
+    _core.set_thread_limit(task.threads)
+    with core_errors_translated():
+        sample = make_sample(*read_surface(task.source.path), task.options, task.seed)
+    made = [MadeSample(None, len(sample.points), encoded(sample))]
+    if task.options.sample.augmented:
+        made += [
+            MadeSample(name, len(sample.points), encoded(augmented(sample, matrix)))
+            for name, matrix in TRANSFORMS.items()
+            if name != IDENTITY
+        ]
+    return made
+
+
+def _entry(folder: Path, task: Task, outcome: Outcome[Sequence[MadeSample]]) -> MeshEntry:
+    """Write the samples of a mesh, and return what the manifest says of it."""
+    source = task.source
+    entry = MeshEntry(source.name, source.source, source.origin, source.licence, source.sha256(), task.seed)
+    if outcome.result is None:
+        # Two builds of the same meshes say the same, wherever these lie.
+        return replace(entry, skipped=outcome.failed.replace(str(source.path), source.source))
+    return replace(entry, samples=tuple(_written(folder, source.name, made) for made in outcome.result))
+
+
+def _written(folder: Path, mesh: str, made: MadeSample) -> SampleEntry:
+    name = mesh if made.augmentation is None else f"{mesh}.{made.augmentation}"
+    path = folder / "samples" / f"{name}.npz"
+    path.parent.mkdir(parents=True, exist_ok=True)
+    with replacing(path) as partial:
+        partial.write_bytes(made.content)
+    file = path.relative_to(folder).as_posix()
+    digest = sha256(made.content).hexdigest()
+    return SampleEntry(name, file, made.augmentation, made.points, len(made.content), digest)
+
+
+def _described(entry: MeshEntry, seconds: float) -> str:
+    if entry.skipped is not None:
+        return f"skipped: {entry.skipped}"
+    points, size = sum(each.points for each in entry.samples), sum(each.bytes for each in entry.samples)
+    return f"{points:,} points, {size / 1e6:.1f} MB, {seconds:.1f} s"

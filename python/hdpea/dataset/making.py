@@ -1,0 +1,61 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A sample of a mesh: points on it or of a scan of it, and what is true of each."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hdpea.dataset.estimation import estimated_normals
+from hdpea.dataset.ground_truth import embed_mesh
+from hdpea.dataset.options import DatasetOptions
+from hdpea.dataset.sample import Sample
+from hdpea.dataset.sampling import sample_surface
+from hdpea.dataset.scanning import scan_surface
+from hdpea.progress import ProgressCallback
+
+Rows = NDArray[np.float64]
+
+
+def make_sample(
+    vertices_in_world: Rows,
+    faces: NDArray[np.int64],
+    options: DatasetOptions,
+    seed: int,
+    progress: ProgressCallback | None = None,
+) -> Sample:
+    """Return a sample of the closed surface `vertices_in_world` (v, 3), `faces` (f, 3), normals outward.
+
+    Raises
+    ------
+    CannotReconstruct
+        If the surface cannot be embedded, or has no area.
+    """
+    embedded = embed_mesh(vertices_in_world, faces, options.ground_truth, progress)
+    vertices = embedded.frame.to_unit(vertices_in_world)
+    points, surface_points, normals, sensors = _points_of(vertices, faces, options, seed)
+    truth = embedded.at(surface_points)
+    return Sample(
+        points=points.astype(np.float32),
+        surface_points=surface_points.astype(np.float32),
+        normals=normals.astype(np.float32),
+        psi=truth.psi.astype(np.float32),
+        curvatures=truth.curvatures.astype(np.float32),
+        direction1=truth.direction1.astype(np.float32),
+        frame=embedded.frame,
+        estimated_normals=estimated_normals(points).astype(np.float32) if options.sample.estimate else None,
+        sensors=None if sensors is None else sensors.astype(np.float32),
+    )
+
+
+def _points_of(
+    vertices: Rows, faces: NDArray[np.int64], options: DatasetOptions, seed: int
+) -> tuple[Rows, Rows, Rows, Rows | None]:
+    """Return points, the points of the surface they stand for, normals and sensors, if any saw them."""
+    if options.sample.kind == "scan":
+        scan = scan_surface(vertices, faces, replace(options.scanning, seed=seed))
+        return scan.points, scan.surface_points, scan.normals, scan.sensors
+    drawn = sample_surface(vertices, faces, replace(options.sampling, method=options.sample.kind, seed=seed))
+    return drawn.points, drawn.points, drawn.normals, None

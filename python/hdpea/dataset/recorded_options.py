@@ -1,0 +1,34 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The options of a dataset as its manifest records them, there and back."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from hdpea.dataset.options import DatasetOptions
+from hdpea.errors import UnreadableInput
+from hdpea.settings import RUN, as_dict, filled, settings
+
+
+def recorded_options(options: DatasetOptions) -> dict[str, dict[str, Any]]:
+    """Return all that the bytes of a dataset depend on, by stage and name; fit for JSON."""
+    listed = as_dict(options)
+    # How the work was shared out changes nothing; the method is the kind of the sample.
+    del listed[RUN], listed["sampling"]["method"]
+    return listed
+
+
+def options_recorded(listed: Mapping[str, Mapping[str, Any]], **run: Any) -> DatasetOptions:
+    """Return the options that ``recorded_options`` listed, and those of this run.
+
+    Raises
+    ------
+    UnreadableInput
+        If they are not the options of this version of hdpea.
+    """
+    values = {name: value for stage in listed.values() for name, value in stage.items()}
+    unknown = set(values) - {each.name for each in settings(DatasetOptions)}
+    if unknown:
+        raise UnreadableInput(f"The manifest has an unknown option {min(unknown)!r}.", "Use the hdpea it names.")
+    return filled(DatasetOptions, {**values, **run})

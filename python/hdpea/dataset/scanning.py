@@ -1,0 +1,130 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Scans of a mesh by a simulated range sensor, in the manner of BlenSor (Gschwandtner et al., 2011)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hdpea.dataset.options import ScanOptions
+from hdpea.dataset.raycasting import RayCaster
+from hdpea.dataset.sampling import face_normals, points_at
+from hdpea.dataset.sensors import camera_rays, sensor_positions
+from hdpea.errors import CannotReconstruct
+
+FIRST_RESOLUTION = 64
+"""Pixels across of the look that tells how many more are needed."""
+
+SURPLUS = 1.3
+"""Points to see for every point wanted, so that the choice among them breaks up the grid of the pixels."""
+
+LARGEST_RESOLUTION = 2048
+"""Where casting finer ends: the model is then all but invisible."""
+
+LEAST_COSINE = 0.2
+"""Of the angle between ray and normal; noise grows with its inverse, but not without end."""
+
+
+@dataclass(frozen=True)
+class Scan:
+    """Points of a mesh as seen from its outside, a row for each; all in the unit frame.
+
+    Attributes
+    ----------
+    points
+        (n, 3) float64, as the sensor measured them: `surface_points` moved along their rays.
+    surface_points
+        (n, 3) float64: where the rays met the mesh.
+    normals
+        (n, 3) float64, unit: those of the faces met, which look at the sensor.
+    faces
+        (n,) int64: the faces met.
+    sensors
+        (n, 3) float64: where the sensor stood.
+    """
+
+    points: NDArray[np.float64]
+    surface_points: NDArray[np.float64]
+    normals: NDArray[np.float64]
+    faces: NDArray[np.int64]
+    sensors: NDArray[np.float64]
+
+    def at(self, rows: NDArray[np.int64]) -> Scan:
+        """Return the scan of these points only."""
+        return Scan(**{each.name: getattr(self, each.name)[rows] for each in fields(self)})
+
+
+def scan_surface(vertices: NDArray[np.float64], faces: NDArray[np.int64], options: ScanOptions | None = None) -> Scan:
+    """Scan a mesh (v, 3), (f, 3) in its unit frame, whose faces look outward; the same for the same seed.
+
+    What no ray reaches is missing: cavities, deep pockets, the underside on a turntable. A face met from behind
+    returns nothing, since the sensor stands outside. The pixels are as fine as it takes to see somewhat more points
+    than wanted; which of them stay is drawn.
+
+    Raises
+    ------
+    UsageError
+        If embreex is not installed.
+    CannotReconstruct
+        If the sensor sees nothing, or too little of the mesh.
+    """
+    options = options or ScanOptions()
+    rng = np.random.default_rng(options.seed)
+    scanner = _Scanner(vertices, faces, options, rng)
+    resolution = FIRST_RESOLUTION
+    scan = scanner.look(resolution)
+    while len(scan.points) < options.points:
+        finer = (SURPLUS * options.points / max(len(scan.points), 1)) ** 0.5
+        resolution = max(int(resolution * finer), resolution + 1)
+        if not len(scan.points) or resolution > LARGEST_RESOLUTION:
+            raise CannotReconstruct(
+                "The sensor sees too little of the mesh.", "Do its faces look outward? If so, ask for fewer points."
+            )
+        scan = scanner.look(resolution)
+    return scan.at(np.sort(rng.choice(len(scan.points), options.points, replace=False)))
+
+
+class _Scanner:
+    """A mesh and the places from which it is looked at."""
+
+    def __init__(
+        self,
+        vertices: NDArray[np.float64],
+        faces: NDArray[np.int64],
+        options: ScanOptions,
+        rng: np.random.Generator,
+    ) -> None:
+        self._vertices, self._faces, self._options, self._rng = vertices, faces, options, rng
+        self._normals, _ = face_normals(vertices, faces)
+        self._caster = RayCaster(vertices, faces)
+        self._positions = sensor_positions(options, rng)
+
+    def look(self, resolution: int) -> Scan:
+        """Return what all views together see with so many pixels across each."""
+        views = [self._look_from(position, resolution) for position in self._positions]
+        names = (each.name for each in fields(Scan))
+        return Scan(**{name: np.concatenate([getattr(view, name) for view in views]) for name in names})
+
+    def _look_from(self, position: NDArray[np.float64], resolution: int) -> Scan:
+        rays = camera_rays(position, resolution, roll=2 * np.pi * self._rng.random())
+        hits = self._caster.cast(position, rays)
+        rays, normals = rays[hits.rays], self._normals[hits.faces]
+        on_surface = points_at(self._vertices, self._faces[hits.faces], hits.barycentric)
+        cosines = -(normals * rays).sum(axis=1)
+        noise = self._range_noise(np.linalg.norm(on_surface - position, axis=1), cosines)
+        sensors = np.broadcast_to(position, rays.shape)
+        seen = Scan(on_surface + noise[:, None] * rays, on_surface, normals, hits.faces, sensors)
+        return seen.at(np.flatnonzero(self._returns(cosines)))
+
+    def _range_noise(self, ranges: NDArray[np.float64], cosines: NDArray[np.float64]) -> NDArray[np.float64]:
+        # Quadratic in the range as of depth cameras (Khoshelham and Elberink, 2012), and with the inverse cosine
+        # of the angle of incidence as of laser scanners (Soudarissanane et al., 2011).
+        farther = (ranges / self._options.distance) ** 2
+        std = self._options.noise * farther / np.maximum(cosines, LEAST_COSINE)
+        return std * self._rng.standard_normal(len(std))
+
+    def _returns(self, cosines: NDArray[np.float64]) -> NDArray[np.bool_]:
+        fading = np.cos(np.radians(self._options.grazing))
+        return (cosines > 0) & (cosines >= fading * self._rng.random(len(cosines)))

@@ -1,0 +1,96 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The meshes that a dataset is made from, and what is known of where they come from."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass, replace
+from hashlib import sha256
+from pathlib import Path
+
+from hdpea.dataset.surface_file import SURFACE_FORMATS
+from hdpea.errors import UnreadableInput
+
+UNSTATED = "unstated"
+LICENCE_FILE = "MANIFEST.json"
+THINGI10K = "thingi10k:"
+
+
+@dataclass(frozen=True)
+class MeshSource:
+    """A mesh file: a name unique among them, where it was found, whose it is, and under what terms."""
+
+    name: str
+    source: str
+    path: Path
+    origin: str = UNSTATED
+    licence: str = UNSTATED
+
+    def sha256(self) -> str | None:
+        """Return the SHA-256 of the file; None if it cannot be read."""
+        try:
+            return sha256(self.path.read_bytes()).hexdigest()
+        except OSError:
+            return None
+
+
+def find_meshes(where: str) -> list[MeshSource]:
+    """Return the meshes that `where` names, ordered by name: a folder with its subfolders, a file, or thingi10k:ID,ID.
+
+    Origin and licence are those that a ``MANIFEST.json`` beside the meshes, or in a folder above, has for each file:
+    ``{"files": [{"path": ..., "licence": ..., "source": ..., "source_path": ...}]}``, with paths relative to it.
+
+    Raises
+    ------
+    UnreadableInput
+        If there is no such file or folder, no mesh in it, or that MANIFEST.json is damaged.
+    UsageError
+        If models of Thingi10K are asked for that cannot be had.
+    """
+    if where.startswith(THINGI10K):
+        from hdpea.dataset.thingi10k import find_models
+
+        return find_models(where.removeprefix(THINGI10K))
+    root = Path(where)
+    if not root.exists():
+        raise UnreadableInput(f"There is no file or folder {root}.", "Check the spelling.")
+    folder = root if root.is_dir() else root.parent
+    files = sorted(root.rglob("*")) if root.is_dir() else [root]
+    paths = [path for path in files if path.is_file() and path.suffix.lower() in SURFACE_FORMATS]
+    if not paths:
+        raise UnreadableInput(f"There are no meshes in {root}.", f"Meshes end in {', '.join(SURFACE_FORMATS)}.")
+    known = _known_origins(folder)
+    sources = [_described(path, folder, known) for path in paths]
+    return sorted(_named_apart(sources), key=lambda each: each.name)
+
+
+def _described(path: Path, folder: Path, known: dict[Path, tuple[str, str]]) -> MeshSource:
+    relative = path.relative_to(folder)
+    origin, licence = known.get(path.resolve(), (UNSTATED, UNSTATED))
+    return MeshSource(relative.with_suffix("").as_posix(), relative.as_posix(), path, origin, licence)
+
+
+def _named_apart(sources: list[MeshSource]) -> list[MeshSource]:
+    """Give meshes of one name, such as cube.obj and cube.stl, their extension too."""
+    names = [each.name for each in sources]
+    return [each if names.count(each.name) == 1 else replace(each, name=each.source) for each in sources]
+
+
+def _known_origins(folder: Path) -> dict[Path, tuple[str, str]]:
+    """Return origin and licence by path, as the nearest MANIFEST.json at or above the folder has them."""
+    manifests = (above / LICENCE_FILE for above in (folder.resolve(), *folder.resolve().parents))
+    manifest = next((each for each in manifests if each.is_file()), None)
+    if manifest is None:
+        return {}
+    try:
+        files = json.loads(manifest.read_text())["files"]
+        return {(manifest.parent / each["path"]).resolve(): _origin_and_licence(each) for each in files}
+    except (OSError, ValueError, LookupError, TypeError, AttributeError) as error:
+        raise UnreadableInput(
+            f"Cannot read the licences in {manifest}: {error!r}.", 'It is {"files": [{"path": ..., "licence": ...}]}.'
+        ) from error
+
+
+def _origin_and_licence(record: dict[str, object]) -> tuple[str, str]:
+    origin = ": ".join(str(record[key]) for key in ("source", "source_path") if record.get(key))
+    return origin or UNSTATED, str(record.get("licence") or record.get("license") or UNSTATED)
