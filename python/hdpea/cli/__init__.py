@@ -14,7 +14,7 @@ import click
 from hdpea.errors import HdpeaError, Interrupted, UsageError, core_errors_translated
 from hdpea.interrupting import prompt_interrupts
 
-COMMANDS = ("reconstruct", "embed", "info")
+COMMANDS = ("reconstruct", "embed", "info", "train")
 TRACEBACK = "HDPEA_TRACEBACK"
 
 EPILOG = """\b

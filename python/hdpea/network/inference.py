@@ -12,7 +12,7 @@ from hdpea.network.clouds import Clouds, centred_points
 from hdpea.network.transformer import PointTransformer
 
 SAMPLING = (0.0025, 0.010)
-"""Distances to the 6th neighbour, unit frame, that training has seen: 60,000 to 20,000 points of small to large area."""
+"""Distances to the 6th neighbour, unit frame, that training has seen: 60,000 points of a small area to 20,000 of a large."""
 
 SIXTH = 6
 

@@ -27,7 +27,7 @@ class SparseConvolution(nn.Module):
     def forward(self, x: Tensor, voxels: Voxels) -> Tensor:
         """Map features (v, c) to (v, c)."""
         sources, targets, counts = voxels.neighborhood
-        parts = rows(x, sources).split(counts)
+        parts = torch.split(rows(x, sources), counts)
         moved = torch.cat([part @ weight for part, weight in zip(parts, self.weight, strict=True)])  # (pairs, c)
         return torch.zeros_like(x).index_add(0, targets, moved)
 

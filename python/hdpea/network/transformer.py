@@ -62,7 +62,7 @@ class PointTransformer(nn.Module):
         voxels, index, features = self._points(clouds)
         x = self._unet(_pooled(self.enter(features), index, len(voxels.cells)), voxels)
         x = self.leave(torch.cat([rows(x, index), features], dim=1))
-        psi = LENGTH * self.psi(x)  # (n, 5)
+        psi: Tensor = LENGTH * self.psi(x)  # (n, 5)
         share = self.options.normal_share
         if share:
             psi = psi + nn.functional.pad(share * clouds.normals, (0, OUTPUTS - 3))

@@ -98,9 +98,7 @@ class Checkpoint:
 
 
 def _network_options(values: Mapping[str, Any]) -> NetworkOptions:
-    return NetworkOptions(
-        **{name: tuple(value) if isinstance(value, list) else value for name, value in values.items()}
-    )
+    return NetworkOptions(**values)
 
 
 def _training_options(values: Mapping[str, Any]) -> TrainingOptions:

@@ -12,6 +12,7 @@ import torch
 from numpy.typing import NDArray
 
 from hdpea import _core
+from hdpea.dataset.augmentation import TRANSFORMS, random_rotation
 from hdpea.dataset.sample import Sample
 from hdpea.network.clouds import Clouds
 from hdpea.training.losses import Truth
@@ -43,10 +44,16 @@ class Crop:
     def together(cls, crops: Sequence[Crop]) -> Crop:
         """Return crops as one batch; each counts the same, however many points it has."""
         clouds = Clouds.together([each.clouds for each in crops])
-        joined = [
-            torch.cat([getattr(each.truth, name) for each in crops]) for name in ("points", "normals", "psi", "weights")
-        ]
-        return cls(clouds, Truth(*joined[:3], clouds.neighbors, joined[3] / len(crops)))
+        joined = {
+            name: torch.cat([getattr(each.truth, name) for each in crops])
+            for name in ("points", "normals", "psi", "weights")
+        }
+        joined["weights"] /= len(crops)
+        return cls(clouds, Truth(neighbors=clouds.neighbors, **joined))
+
+    def to(self, device: torch.device) -> Crop:
+        """Return the crop on a device."""
+        return Crop(self.clouds.to(device), self.truth.to(device))
 
 
 def crop_number(number: int, samples: Samples, options: CropOptions, neighbors: int, seed: int) -> Crop:
@@ -96,20 +103,7 @@ def _tensor(array: NDArray[np.floating]) -> torch.Tensor:
 def _orthogonal(kind: str, random: np.random.Generator) -> NDArray[np.float64]:
     """Return a random orthogonal matrix (3, 3): of all, of the paper's ten, or the identity."""
     if kind == "any":
-        q, r = np.linalg.qr(random.standard_normal((3, 3)))
-        turned: NDArray[np.float64] = q * np.sign(np.diag(r))
-        return turned
-    ten = paper_transforms()
-    return ten[random.integers(len(ten))] if kind == "ten" else ten[0]
-
-
-def paper_transforms() -> list[NDArray[np.float64]]:
-    """Return the paper's ten: identity, a quarter turn either way about each axis, a reflection along each."""
-    quarters = []
-    for axis in range(3):
-        a, b = (axis + 1) % 3, (axis + 2) % 3
-        quarter = np.eye(3)
-        quarter[[a, b]] = quarter[[b, a]]
-        quarter[a] *= -1
-        quarters += [quarter, quarter.T]
-    return [np.eye(3), *quarters, *(np.diag(1.0 - 2.0 * np.eye(3)[axis]) for axis in range(3))]
+        # The negative of a rotation is a reflection.
+        return random_rotation(random) * float(random.choice([-1.0, 1.0]))
+    ten = list(TRANSFORMS.values())
+    return ten[random.integers(len(ten))] if kind == "ten" else TRANSFORMS["identity"]

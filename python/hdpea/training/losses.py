@@ -2,14 +2,14 @@
 """What a prediction of psi is judged by in training; each judges points one by one and is 0 at the truth.
 
 Distances and local metric do not see the gauge (any rotation or shift of psi), nor does flatness; the pointwise
-errors do. Distances alone reward jitter: a network that does not yet know where to stretch gets them right on average by
-making psi noisy, which wrecks the mesh. So the ``local`` loss is of first order: the metric that the best affine
-map of psi induces, blind to noise, and the noise itself on top.
+errors do. Distances alone reward jitter: a network that does not yet know where to stretch gets them right on
+average by making psi noisy, which wrecks the mesh. So the ``local`` loss is of first order: the metric that the
+best affine map of psi induces, blind to noise, and the noise itself on top.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 
 import torch
 from torch import Tensor
@@ -43,6 +43,10 @@ class Truth:
     neighbors: Tensor
     weights: Tensor
 
+    def to(self, device: torch.device) -> Truth:
+        """Return the truth on a device."""
+        return Truth(*(getattr(self, each.name).to(device) for each in fields(self)))
+
 
 def distance_errors(psi: Tensor, truth: Truth, neighbors: int) -> tuple[Tensor, Tensor]:
     """Return by how much distances in R^8 to the nearest `neighbors` are wrong, and those distances (n, k).
@@ -67,7 +71,8 @@ def metric_errors(gradient: Tensor, true_gradient: Tensor) -> Tensor:
     back = torch.linalg.solve(metric, true).diagonal(dim1=1, dim2=2).sum(dim=1)
     # The root of 0 has no gradient.
     floor = 1e-4
-    return (((there + back) / 2 - 2).clamp_min(0) + floor**2).sqrt() - floor
+    divergence: Tensor = ((there + back) / 2 - 2).clamp_min(0)
+    return (divergence + floor**2).sqrt() - floor
 
 
 def loss_parts(psi: Tensor, truth: Truth, options: LossOptions) -> dict[str, Tensor]:

@@ -32,24 +32,26 @@ class CropOptions(Checked):
 
     least_points: int = option(4_000, "points of the smallest crop", minimum=64)
     most_points: int = option(8_000, "points of the largest crop", minimum=64)
-    margin: float = option(0.15, "share of a crop's points, the outermost, that are shown but not judged", minimum=0)
+    margin: float = option(
+        0.15, "share of a crop's points, the outermost, that are shown but not judged", minimum=0, maximum=0.9
+    )
     rotations: str = option(
         "any", "any: random rotations and reflections; ten: the paper's; none", choices=("any", "ten", "none")
     )
     least_density: int = option(20_000, "points that a whole cloud is thinned to, at least", minimum=64)
     most_density: int = option(60_000, "the same, at most", minimum=64)
-    noisy_share: float = option(0.4, "share of crops that get noise on their points", minimum=0)
+    noisy_share: float = option(0.4, "share of crops that get noise on their points", minimum=0, maximum=1)
     noise: float = option(0.003, "largest standard deviation of that noise", minimum=0)
-    tilted_share: float = option(0.4, "share of crops that get noise on their normals", minimum=0)
+    tilted_share: float = option(0.4, "share of crops that get noise on their normals", minimum=0, maximum=1)
     tilt: float = option(0.2, "largest standard deviation of that noise, radians in each tangent", minimum=0)
-    estimated_share: float = option(0.5, "share of crops with estimated normals, where there are any", minimum=0)
+    estimated_share: float = option(
+        0.5, "share of crops with estimated normals, where there are any", minimum=0, maximum=1
+    )
 
     def __post_init__(self) -> None:
         super().__post_init__()
         if self.least_points > self.most_points or self.least_density > self.most_density:
             raise UsageError("A least number is more than the most.")
-        if not self.margin < 1:
-            raise UsageError(f"margin is less than 1, not {self.margin}.")
 
 
 @dataclass(frozen=True)
@@ -64,7 +66,7 @@ class TrainingOptions(Checked):
     warm_up: int = option(200, "steps in which the learning rate rises", minimum=0)
     weight_decay: float = option(0.01, "of AdamW", minimum=0)
     clip: float = option(1.0, "largest norm of the gradient; 0: any", minimum=0)
-    average: float = option(0.999, "share that the averaged weights keep of themselves in a step", minimum=0)
+    average: float = option(0.999, "share that the averaged weights keep of themselves in a step", minimum=0, maximum=1)
     log_every: int = option(50, "steps between lines of metrics.jsonl", minimum=1)
     save_minutes: float = option(10.0, "minutes between checkpoints", minimum=0)
     validate_every: int = option(2_000, "steps between reconstructions of validation clouds", minimum=1)

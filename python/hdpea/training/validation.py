@@ -35,7 +35,8 @@ def validate(network: PointTransformer, samples: Iterable[Sample], vertices: int
 
     Returns
     -------
-    ``t3``: share of faces that three cells agree on, ``g``: quality under the true metric (1 is best),
+    ``t3``: faces that three cells agree on, as a share of the faces, or of those that a closed mesh of so many
+    vertices has, if there are fewer; ``g``: quality under the true metric (1 is best);
     ``boundary``: edges of one face; ``score``: what checkpoints are chosen by, the sum of t3 and g, of which each
     counts only up to a little above what is wanted.
     """
@@ -55,7 +56,8 @@ def _scores(network: PointTransformer, sample: Sample, vertices: int) -> dict[st
         return {"t3": 0.0, "g": 0.0, "boundary": float("nan")}
     check = _core.check_mesh(mesh.vertices_in_unit, mesh.faces)
     return {
-        "t3": mesh.statistics["t3_kept"] / len(mesh.faces),
+        # Small pieces are dropped after the count, and what was dropped is no success.
+        "t3": min(mesh.statistics["t3_kept"], len(mesh.faces)) / max(len(mesh.faces), 2 * vertices - 4),
         "g": float(metric_quality(mesh, sample).mean()),
         "boundary": float(check.boundary_edges),
     }
@@ -73,7 +75,7 @@ def mesh_of_embedding(
 
 
 def metric_quality(mesh: Mesh, sample: Sample) -> NDArray[np.float64]:
-    """Return the quality G (f,) of each face under the metric of the true curvature (design: 1 if equilateral there)."""
+    """Return the quality G (f,) of each face under the metric of the true curvature; 1 if equilateral there."""
     nearest = _core.nearest_neighbors(
         np.ascontiguousarray(sample.surface_points, np.float64), mesh.vertices_in_unit, 1
     )[:, 0]
@@ -95,4 +97,5 @@ def _root_metrics(sample: Sample, index: NDArray[np.int64]) -> NDArray[np.float6
     normal, first = (np.asarray(each[index], np.float64) for each in (sample.normals, sample.direction1))
     frame = np.stack([first, np.cross(normal, first), normal], axis=2)  # (m, 3, 3), columns
     stretches = np.sqrt(np.hstack([curvatures, curvatures.min(axis=1, keepdims=True)]))  # (m, 3)
-    return frame * stretches[:, None] @ frame.transpose(0, 2, 1)
+    roots: NDArray[np.float64] = frame * stretches[:, None] @ frame.transpose(0, 2, 1)
+    return roots
