@@ -12,7 +12,8 @@ from hdpea.network.clouds import Clouds, centred_points
 from hdpea.network.transformer import PointTransformer
 
 SAMPLING = (0.0025, 0.010)
-"""Distances to the 6th neighbour, unit frame, that training has seen: 60,000 points of a small area to 20,000 of a large."""
+"""Distances to the 6th neighbour, unit frame, that training has seen: of 60,000 points of a small area to 20,000 of a
+large one."""
 
 SIXTH = 6
 

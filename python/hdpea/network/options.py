@@ -25,6 +25,7 @@ class NetworkOptions(Checked):
     stem_channels: int = option(32, "width of the edge convolutions", minimum=1)
     stem_neighbors: int = option(16, "nearest points that they look at", minimum=1)
     normal_share: float = option(0.2, "psi is this times the normal, as the solver's is at first, plus what is learned")
+    normal_gate: bool = option(True, "that share is learned point by point, and only begins so")
     smoothing: int = option(1, "times psi is averaged over the same neighbours, as the last layer", minimum=0)
     seed: int = option(0, "seed of the first weights", minimum=0)
 
@@ -55,6 +56,7 @@ CONFIGURATIONS: dict[str, NetworkOptions] = {
         voxel=0.004,
         stem=False,
         normal_share=0.0,
+        normal_gate=False,
         smoothing=0,
     ),
 }

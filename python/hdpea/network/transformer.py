@@ -52,6 +52,7 @@ class PointTransformer(nn.Module):
         width = o.decoder_channels[0] if o.decoder_channels else o.channels[0]
         self.leave = _mapped(width + point_channels, width)
         self.psi = nn.Linear(width, OUTPUTS)
+        self.gate = nn.Linear(width, 1) if o.normal_gate else None
 
     def _blocks(self, channels: int, depth: int) -> nn.ModuleList:
         o = self.options
@@ -65,7 +66,9 @@ class PointTransformer(nn.Module):
         psi: Tensor = LENGTH * self.psi(x)  # (n, 5)
         share = self.options.normal_share
         if share:
-            psi = psi + nn.functional.pad(share * clouds.normals, (0, OUTPUTS - 3))
+            # Round a cylinder of radius r, the solution is the normal times sqrt(c r - r^2).
+            gate = share * (1 + self.gate(x)) if self.gate is not None else share
+            psi = psi + nn.functional.pad(gate * clouds.normals, (0, OUTPUTS - 3))
         for _ in range(self.options.smoothing):
             psi = _smoothed(psi, clouds.normals, clouds.neighbors[:, : self.options.stem_neighbors])
         return psi
