@@ -49,7 +49,7 @@ def test_the_order_within_the_network_matters_to_rounding_alone(network: PointTr
 def test_where_the_cloud_lies_does_not_matter(network: PointTransformer) -> None:
     points, normals = unit_torus()
     psi = predict_psi(network, points, normals)
-    np.testing.assert_allclose(predict_psi(network, points + [1000, -20, 3], normals), psi, rtol=0, atol=1e-5)
+    np.testing.assert_allclose(predict_psi(network, points + np.array([1000, -20, 3]), normals), psi, rtol=0, atol=1e-5)
 
 
 def test_a_batch_is_its_clouds(network: PointTransformer) -> None:

@@ -19,6 +19,9 @@ LENGTH = 0.005
 OUTPUTS = 5
 """The dimensions of psi."""
 
+GATE_STEP = 0.1
+"""How far the gate opens for an output of 1: about as far as the other outputs move psi, that gradients be alike."""
+
 ORIGIN = 0.381966
 """Where the centre of a cloud lies in its voxel: a symmetric cloud must have no plane of points between voxels."""
 
@@ -67,7 +70,7 @@ class PointTransformer(nn.Module):
         share = self.options.normal_share
         if share:
             # Round a cylinder of radius r, the solution is the normal times sqrt(c r - r^2).
-            gate = share * (1 + self.gate(x)) if self.gate is not None else share
+            gate = share * (1 + GATE_STEP * self.gate(x)) if self.gate is not None else share
             psi = psi + nn.functional.pad(gate * clouds.normals, (0, OUTPUTS - 3))
         for _ in range(self.options.smoothing):
             psi = _smoothed(psi, clouds.normals, clouds.neighbors[:, : self.options.stem_neighbors])

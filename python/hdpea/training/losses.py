@@ -67,8 +67,7 @@ def metric_errors(gradient: Tensor, true_gradient: Tensor) -> Tensor:
     sum (l + 1/l) / 2 - 1; about |log l| where they are close, the same for twice and half.
     """
     metric, true = _metric(gradient), _metric(true_gradient)
-    there = torch.linalg.solve(true, metric).diagonal(dim1=1, dim2=2).sum(dim=1)
-    back = torch.linalg.solve(metric, true).diagonal(dim1=1, dim2=2).sum(dim=1)
+    there, back = _trace_of_quotient(metric, true), _trace_of_quotient(true, metric)
     # The root of 0 has no gradient.
     floor = 1e-4
     divergence: Tensor = ((there + back) / 2 - 2).clamp_min(0)
@@ -118,6 +117,12 @@ def _squared_distances(values: Tensor, neighbors: Tensor) -> Tensor:
     """Return the squared distances (n, k) of values (n, c) to their neighbours (n, k)."""
     # The root of 0 has no gradient; points closer than 1e-6 of the diagonal are the same.
     return (rows(values, neighbors) - values[:, None]).square().sum(dim=2) + 1e-12
+
+
+def _trace_of_quotient(a: Tensor, b: Tensor) -> Tensor:
+    """Return the trace (n,) of inverse(b) a, for symmetric 2 x 2 matrices (n, 2, 2)."""
+    adjugate = b[:, 1, 1] * a[:, 0, 0] - 2 * b[:, 0, 1] * a[:, 0, 1] + b[:, 0, 0] * a[:, 1, 1]
+    return adjugate / (b[:, 0, 0] * b[:, 1, 1] - b[:, 0, 1].square())
 
 
 def _metric(gradient: Tensor) -> Tensor:

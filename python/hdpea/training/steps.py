@@ -38,7 +38,9 @@ class Training:
         self.network = PointTransformer(network).train().to(self.workers.device)
         self.shared = self.workers.share(self.network)
         self.averaged = {name: value.clone() for name, value in self.network.state_dict().items()}
-        self.optimizer = torch.optim.AdamW(_groups(self.network, options), weight_decay=options.weight_decay)
+        self.optimizer = torch.optim.AdamW(
+            _groups(self.network, options), weight_decay=options.weight_decay, fused=True
+        )
         per_epoch = math.ceil(len(samples.names) / options.batch)
         self.steps = options.steps if options.epochs is None else options.epochs * per_epoch
         self.neighbors = max(network.stem_neighbors, options.loss.distance_neighbors, FIT_NEIGHBORS)
