@@ -6,8 +6,10 @@ from __future__ import annotations
 import os
 import sys
 from ctypes.util import find_library
+from importlib import import_module
 from importlib.util import find_spec
 from pathlib import Path
+from types import ModuleType
 
 import numpy as np
 from numpy.typing import NDArray
@@ -42,6 +44,14 @@ def _has_screen() -> bool:
     return sys.platform != "linux" or "DISPLAY" in os.environ
 
 
+def load_pyvista() -> ModuleType:
+    """Return pyvista, set to draw without a screen where there is none; ``check_drawing`` first."""
+    if not _has_screen() and find_library("OSMesa"):
+        # Must be said before VTK is imported; it would try a display first.
+        os.environ.setdefault("VTK_DEFAULT_OPENGL_WINDOW", "vtkOSOpenGLRenderWindow")
+    return import_module("pyvista")
+
+
 def draw_mesh(
     path: Path,
     vertices: NDArray[np.float64],
@@ -71,11 +81,7 @@ def draw_mesh(
     """
     check_output(path, PICTURE_FORMATS)
     check_drawing()
-    if not _has_screen() and find_library("OSMesa"):
-        # Must be said before VTK is imported; it would try a display first.
-        os.environ.setdefault("VTK_DEFAULT_OPENGL_WINDOW", "vtkOSOpenGLRenderWindow")
-    import pyvista
-
+    pyvista = load_pyvista()
     view_from_world = choose_view(vertices, faces)
     # The renderer works in single precision: what it gets is centred and of size 1.
     in_view = vertices @ view_from_world.T

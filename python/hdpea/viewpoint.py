@@ -26,6 +26,16 @@ def choose_view(vertices: NDArray[np.float64], faces: NDArray[np.int64]) -> NDAr
     """
     corners = vertices[faces]
     area_normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]) / 2
+    return _view(corners, area_normals)
+
+
+def choose_view_of_points(points: NDArray[np.float64], normals: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return the rotation that ``choose_view`` would for a surface of points (n, 3) with unit normals (n, 3)."""
+    return _view(points[:, None], normals)
+
+
+def _view(corners: NDArray[np.float64], area_normals: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Choose for patches with corners (f, c, 3) and normals (f, 3) as long as their areas, or all of one length."""
     total_area = np.linalg.norm(area_normals, axis=1).sum() or 1.0
     facing = area_normals.sum(axis=0) / total_area
     if np.linalg.norm(facing) > OPEN:

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from pathlib import Path
 
 import numpy as np
@@ -67,8 +67,14 @@ def write_points(path: Path, points: Points, normals: Points, coordinates: Point
         if path.suffix.lower() == ".npz":
             np.savez(partial, points=points, normals=normals, coordinates=coordinates)
         else:
-            names = ["x", "y", "z", "nx", "ny", "nz", *(f"embedding_{i}" for i in range(coordinates.shape[1]))]
-            partial.write_bytes(_ply(_records(np.hstack([points, normals, coordinates]), names)))
+            others = {f"embedding_{i}": column for i, column in enumerate(coordinates.T)}
+            partial.write_bytes(point_ply(points, normals, others))
+
+
+def point_ply(points: Points, normals: Points, others: Mapping[str, NDArray[np.float64]]) -> bytes:
+    """Return the content of a PLY file of points (n, 3), their normals (n, 3) and other properties by name (n,)."""
+    table = np.column_stack([points, normals, *others.values()])
+    return _ply(_records(table, ["x", "y", "z", "nx", "ny", "nz", *others]))
 
 
 def _obj(vertices: Points, faces: Faces) -> bytes:

@@ -13,6 +13,7 @@ NB_MODULE(_core, module) {
   register_normals(module);
   register_parallel(module);
   register_refinement(module);
+  register_remeshing(module);
   register_restricted_voronoi(module);
   register_sheets(module);
   register_surface_distance(module);

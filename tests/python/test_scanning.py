@@ -17,18 +17,18 @@ from hdpea.dataset.scanning import Scan, scan_surface
 from hdpea.dataset.sensors import sensor_positions
 from hdpea.errors import CannotReconstruct, UsageError
 
-KINDS = ("views", "turntable")
+SENSORS = ("views", "turntable")
 
 
 def scanned(mesh: meshes.Mesh, points: int = 2000, **chosen: Any) -> Scan:
     return scan_surface(*mesh, ScanOptions(points, **chosen))
 
 
-@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize("sensor", SENSORS)
 @pytest.mark.parametrize("points", [1, 500, 20_000])
-def test_points_are_as_many_as_wanted_and_on_the_faces_they_name(kind: str, points: int) -> None:
+def test_points_are_as_many_as_wanted_and_on_the_faces_they_name(sensor: str, points: int) -> None:
     vertices, faces = mesh = meshes.torus()
-    scan = scanned(mesh, points, kind=kind)
+    scan = scanned(mesh, points, sensor=sensor)
     assert len(scan.points) == points
     nearest = _core.closest_surface_points(vertices, faces, scan.surface_points)
     assert nearest.distance.max() < 1e-12
@@ -36,9 +36,9 @@ def test_points_are_as_many_as_wanted_and_on_the_faces_they_name(kind: str, poin
     np.testing.assert_allclose(((scan.surface_points - corner) * scan.normals).sum(axis=1), 0, atol=1e-12)
 
 
-@pytest.mark.parametrize("kind", KINDS)
-def test_faces_look_at_the_sensor_and_nothing_stands_between(kind: str) -> None:
-    scan = scanned(meshes.torus(), kind=kind)
+@pytest.mark.parametrize("sensor", SENSORS)
+def test_faces_look_at_the_sensor_and_nothing_stands_between(sensor: str) -> None:
+    scan = scanned(meshes.torus(), sensor=sensor)
     towards = scan.sensors - scan.surface_points
     assert ((scan.normals * towards).sum(axis=1) > 0).all()
     on_the_way = scan.surface_points + np.linspace(0, 1, 100)[:, None, None] * towards
@@ -65,21 +65,21 @@ def test_without_noise_points_are_on_the_surface() -> None:
     np.testing.assert_array_equal(scan.points, scan.surface_points)
 
 
-@pytest.mark.parametrize("kind", KINDS)
-def test_a_closed_cavity_is_not_seen(kind: str) -> None:
+@pytest.mark.parametrize("sensor", SENSORS)
+def test_a_closed_cavity_is_not_seen(sensor: str) -> None:
     _, faces = mesh = meshes.nested_spheres()
-    assert scanned(mesh, 20_000, kind=kind).faces.max() < len(faces) // 2
+    assert scanned(mesh, 20_000, sensor=sensor).faces.max() < len(faces) // 2
 
 
 def test_a_turntable_hides_the_underside_and_views_all_round_do_not() -> None:
-    assert scanned(meshes.box(), kind="turntable", grazing=90.0).normals[:, 2].min() > -0.5
+    assert scanned(meshes.box(), sensor="turntable", grazing=90.0).normals[:, 2].min() > -0.5
     assert scanned(meshes.box()).normals[:, 2].min() < -0.5
 
 
-@pytest.mark.parametrize("kind", KINDS)
-def test_less_coverage_shows_less(kind: str) -> None:
+@pytest.mark.parametrize("sensor", SENSORS)
+def test_less_coverage_shows_less(sensor: str) -> None:
     def missing(coverage: float) -> float:
-        scan = scanned(meshes.sphere(), kind=kind, coverage=coverage)
+        scan = scanned(meshes.sphere(), sensor=sensor, coverage=coverage)
         return float(np.linalg.norm(scan.normals.mean(axis=0)))  # 0 if all sides are seen alike
 
     assert missing(0.1) > 1.5 * missing(1.0)
@@ -95,15 +95,15 @@ def test_fewer_grazing_rays_return_the_smaller_the_angle() -> None:
     assert grazing(40.0) < 0.7 * grazing(70.0) < 0.7 * grazing(90.0)
 
 
-@pytest.mark.parametrize("kind", KINDS)
-def test_sensors_keep_their_distance(kind: str) -> None:
-    positions = sensor_positions(ScanOptions(kind=kind, views=30, distance=2.0), np.random.default_rng(0))
+@pytest.mark.parametrize("sensor", SENSORS)
+def test_sensors_keep_their_distance(sensor: str) -> None:
+    positions = sensor_positions(ScanOptions(sensor=sensor, views=30, distance=2.0), np.random.default_rng(0))
     np.testing.assert_allclose(np.linalg.norm(positions, axis=1), 2)
 
 
-@pytest.mark.parametrize("kind", KINDS)
-def test_seed_decides(kind: str) -> None:
-    one, same, other = (scanned(meshes.torus(), kind=kind, seed=seed) for seed in (1, 1, 2))
+@pytest.mark.parametrize("sensor", SENSORS)
+def test_seed_decides(sensor: str) -> None:
+    one, same, other = (scanned(meshes.torus(), sensor=sensor, seed=seed) for seed in (1, 1, 2))
     for column, again in zip(astuple(one), astuple(same), strict=True):
         np.testing.assert_array_equal(column, again)
     assert (one.points != other.points).any()

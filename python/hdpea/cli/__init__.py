@@ -7,14 +7,14 @@ import os
 import sys
 import traceback
 from collections.abc import Sequence
-from importlib import import_module
 
 import click
 
+from hdpea.cli.lazy import lazy_group
 from hdpea.errors import HdpeaError, Interrupted, UsageError, core_errors_translated
 from hdpea.interrupting import prompt_interrupts
 
-COMMANDS = ("reconstruct", "embed", "info", "train")
+COMMANDS = ("reconstruct", "embed", "info", "dataset", "train")
 TRACEBACK = "HDPEA_TRACEBACK"
 
 EPILOG = """\b
@@ -23,22 +23,6 @@ Begin with:
   hdpea reconstruct scan.ply mesh.obj
   hdpea reconstruct --help
 """
-
-
-class LazyGroup(click.Group):
-    """A group whose commands are imported only when asked for."""
-
-    def list_commands(self, _ctx: click.Context) -> list[str]:
-        """Return the names, the most important first."""
-        return list(COMMANDS)
-
-    def get_command(self, _ctx: click.Context, name: str) -> click.Command | None:
-        """Return the ``command`` of the module of that name, None if there is none."""
-        if name not in COMMANDS:
-            return None
-        command: click.Command = import_module(f"hdpea.cli.{name}").command
-        command.name = name
-        return command
 
 
 def _print_version(ctx: click.Context, _: click.Parameter, wanted: bool) -> None:
@@ -50,7 +34,9 @@ def _print_version(ctx: click.Context, _: click.Parameter, wanted: bool) -> None
 
 
 @click.group(
-    cls=LazyGroup, epilog=EPILOG, context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100}
+    cls=lazy_group("hdpea.cli", COMMANDS),
+    epilog=EPILOG,
+    context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100},
 )
 @click.option(
     "--version", is_flag=True, is_eager=True, expose_value=False, callback=_print_version, help="Show the version."

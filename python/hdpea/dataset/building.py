@@ -6,7 +6,7 @@ from __future__ import annotations
 import os
 import time
 import zlib
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from hashlib import sha256
 from pathlib import Path
@@ -48,9 +48,6 @@ class MadeSample:
     content: bytes
 
 
-Maker = Callable[[Task], Sequence[MadeSample]]
-
-
 @dataclass(frozen=True)
 class Built:
     """What a build came to: the manifest, and how many of its meshes were `kept` from an earlier run."""
@@ -65,7 +62,6 @@ def build_dataset(
     folder: Path,
     options: DatasetOptions | None = None,
     told: Callable[[str], None] = lambda _: None,
-    make: Maker | None = None,
 ) -> Built:
     """Build the dataset of the meshes that `where` names (see ``find_meshes``) in `folder`, or continue to.
 
@@ -77,8 +73,6 @@ def build_dataset(
     ----------
     told
         Is given a line about each mesh.
-    make
-        What makes the samples of a mesh, in a process of its own; default: ``make_samples``.
 
     Raises
     ------
@@ -102,7 +96,7 @@ def build_dataset(
         for source in sources
         if source.name not in done
     ]
-    for outcome in run_isolated(make or make_samples, tasks, jobs, options.time_limit):
+    for outcome in run_isolated(make_samples, tasks, jobs, options.time_limit):
         entry = _entry(folder, tasks[outcome.index], outcome)
         done[entry.name] = entry
         manifest = replace(manifest, meshes=tuple(done[name] for name in sorted(done)))
@@ -146,7 +140,7 @@ def make_samples(task: Task) -> list[MadeSample]:
     return made
 
 
-def _entry(folder: Path, task: Task, outcome: Outcome[Sequence[MadeSample]]) -> MeshEntry:
+def _entry(folder: Path, task: Task, outcome: Outcome[list[MadeSample]]) -> MeshEntry:
     """Write the samples of a mesh, and return what the manifest says of it."""
     source = task.source
     entry = MeshEntry(source.name, source.source, source.origin, source.licence, source.sha256(), task.seed)

@@ -14,7 +14,7 @@ CARD_NAME = "DATASET_CARD.md"
 
 _CARD = """# Dataset card
 
-{samples:,} samples of {meshes:,} surfaces: {points:,} points in {size:.1f} MB, each with what is true of the surface there.
+{samples:,} samples of {meshes:,} surfaces: {points:,} points in {size:.1f} MB, each with what is true there.
 Made by `hdpea dataset build`, hdpea {version}; `manifest.json` has the options, the seed and every hash.
 
 ## What is in a sample

@@ -35,7 +35,7 @@ class ScanOptions(Checked):
     """How a mesh is scanned by a simulated range sensor; lengths are shares of its bounding-box diagonal."""
 
     points: int = option(40_000, "points to return", minimum=1)
-    kind: str = option(
+    sensor: str = option(
         "views",
         "views: a depth camera all around; turntable: a sensor above the horizon, the model turning about z",
         choices=("views", "turntable"),

@@ -8,7 +8,7 @@ from typing import Any
 
 from hdpea.dataset.options import DatasetOptions
 from hdpea.errors import UnreadableInput
-from hdpea.settings import RUN, as_dict, filled, settings
+from hdpea.settings import RUN, as_dict
 
 
 def recorded_options(options: DatasetOptions) -> dict[str, dict[str, Any]]:
@@ -27,8 +27,8 @@ def options_recorded(listed: Mapping[str, Mapping[str, Any]], **run: Any) -> Dat
     UnreadableInput
         If they are not the options of this version of hdpea.
     """
-    values = {name: value for stage in listed.values() for name, value in stage.items()}
-    unknown = set(values) - {each.name for each in settings(DatasetOptions)}
-    if unknown:
-        raise UnreadableInput(f"The manifest has an unknown option {min(unknown)!r}.", "Use the hdpea it names.")
-    return filled(DatasetOptions, {**values, **run})
+    try:
+        stages = {stage: type(getattr(DatasetOptions, stage))(**values) for stage, values in listed.items()}
+    except (AttributeError, TypeError) as error:
+        raise UnreadableInput(f"The manifest has an unknown option ({error}).", "Use the hdpea it names.") from error
+    return DatasetOptions(**stages, **run)

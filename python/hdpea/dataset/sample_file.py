@@ -43,17 +43,13 @@ def write_sample(path: Path, sample: Sample) -> None:
 
 def encoded(sample: Sample) -> bytes:
     """Return the content of the file of a sample; what it does not know, or knows twice, is left out."""
-    arrays = {name: getattr(sample, name) for name in (*_COLUMNS, *_OPTIONAL)}
+    arrays: dict[str, Any] = {name: getattr(sample, name) for name in (*_COLUMNS, *_OPTIONAL)}
     if np.array_equal(sample.surface_points, sample.points):
         arrays["surface_points"] = None
+    stored: dict[str, Any] = {name: np.asarray(array, "<f4") for name, array in arrays.items() if array is not None}
+    stored |= {"centre_in_world": np.asarray(sample.frame.centre_in_world, "<f8"), "diagonal": sample.frame.diagonal}
     stream = io.BytesIO()
-    np.savez(
-        stream,
-        schema=np.int64(SCHEMA),
-        **{name: np.asarray(array, "<f4") for name, array in arrays.items() if array is not None},
-        centre_in_world=np.asarray(sample.frame.centre_in_world, "<f8"),
-        diagonal=np.float64(sample.frame.diagonal),
-    )
+    np.savez(stream, schema=np.int64(SCHEMA), **stored)
     return stream.getvalue()
 
 

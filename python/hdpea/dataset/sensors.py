@@ -29,7 +29,7 @@ def sensor_positions(options: ScanOptions, rng: np.random.Generator) -> NDArray[
     than 1. ``turntable``: one after the other at each of the elevations while the model turns, from a random angle on.
     """
     each = np.arange(options.views)
-    if options.kind == "turntable":
+    if options.sensor == "turntable":
         azimuth = TAU * (options.coverage * each / options.views + rng.random())
         elevation = np.resize(ELEVATIONS, options.views)
         directions = _on_sphere(azimuth, np.sin(elevation))

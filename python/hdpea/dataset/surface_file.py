@@ -55,7 +55,7 @@ def _parse(data: bytes, suffix: str) -> Surface:
     import trimesh
 
     options = {"skip_materials": True} if suffix == ".obj" else {}
-    mesh = trimesh.load(io.BytesIO(data), file_type=suffix[1:], force="mesh", process=False, **options)
+    mesh = trimesh.load_mesh(io.BytesIO(data), file_type=suffix[1:], process=False, **options)
     return np.asarray(mesh.vertices, np.float64), np.asarray(mesh.faces, np.int64)
 
 

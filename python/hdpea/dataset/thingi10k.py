@@ -26,7 +26,7 @@ def find_models(ids: str) -> list[MeshSource]:
         raise UsageError(f"{ids!r} are not IDs of Thingi10K.", f"As in: {THINGI10K}34785,36371") from error
     if find_spec("thingi10k") is None:
         raise UsageError(
-            "Thingi10K cannot be read: the package thingi10k is not installed.", "pip install 'hdpea[dataset]'"
+            "Thingi10K cannot be read: the package thingi10k is not installed.", "pip install 'hdpea[thingi10k]'"
         )
     import thingi10k
 

@@ -1,0 +1,39 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""``hdpea dataset degrade``: a sample made worse, as scans are."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import click
+
+from hdpea.cli.parameters import GroupedCommand, setting_options
+from hdpea.dataset.options import DegradationOptions
+
+EPILOG = """\b
+Examples:
+  hdpea dataset degrade bunny.npz noisy.npz --noise 0.003
+  hdpea dataset degrade bunny.npz torn.npz --missing 5 --density striped --seed 7
+"""
+
+
+@click.command(cls=GroupedCommand, epilog=EPILOG, no_args_is_help=True, short_help="Make a sample worse.")
+@click.argument("source", metavar="IN", type=click.Path(path_type=Path))
+@click.argument("output", metavar="OUT", type=click.Path(path_type=Path))
+@setting_options("run", owner=DegradationOptions)
+def command(source: Path, output: Path, **values: Any) -> None:
+    """Make the sample IN worse, as scans are, and write it as OUT; both are NPZ.
+
+    The truth stays that of the surface points that the points stand for. Lengths are shares of the
+    diagonal of the mesh's bounding box.
+    """
+    from hdpea.dataset.degradation import degraded
+    from hdpea.dataset.sample_file import SAMPLE_FORMATS, read_sample, write_sample
+    from hdpea.outputs import check_not_input, check_output
+    from hdpea.settings import filled
+
+    options = filled(DegradationOptions, values)
+    check_output(output, SAMPLE_FORMATS)
+    check_not_input(output, str(source))
+    write_sample(output, degraded(read_sample(source), options))

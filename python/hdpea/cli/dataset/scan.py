@@ -1,0 +1,62 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""``hdpea dataset scan``: what a sensor would see of one mesh."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import click
+
+from hdpea.cli.parameters import GroupedCommand, quiet_option, setting_options
+from hdpea.dataset.options import DatasetOptions
+
+EPILOG = """\b
+Examples:
+  hdpea dataset scan bunny.ply scan.ply --sensor turntable --views 8
+  hdpea reconstruct scan.ply mesh.obj
+  hdpea dataset scan bunny.ply sample.npz --noise 0.002 --seed 7
+"""
+
+
+@click.command(cls=GroupedCommand, epilog=EPILOG, no_args_is_help=True, short_help="Scan a mesh as a sensor would.")
+@click.argument("mesh", type=click.Path(path_type=Path))
+@click.argument("output", metavar="OUT", type=click.Path(path_type=Path))
+@quiet_option
+@setting_options("scanning", "ground_truth", also=["points", "seed", "estimate"], owner=DatasetOptions)
+def command(mesh: Path, output: Path, quiet: bool, **values: Any) -> None:
+    """Scan the closed mesh MESH by a simulated range sensor.
+
+    OUT is PLY or NPZ. PLY holds the points in the coordinates of the mesh, with the normals of its
+    faces and, as sensor_x, sensor_y and sensor_z, where the sensor stood; reconstruct takes it. NPZ
+    is a sample, with the truth about the surface at every point, which takes longer.
+
+    Lengths are shares of the diagonal of the mesh's bounding box.
+    """
+    from hdpea.dataset.surface_file import read_surface
+    from hdpea.outputs import check_not_input, check_output
+    from hdpea.progress import shown, tell
+    from hdpea.settings import filled
+    from hdpea.writing import POINT_FORMATS
+
+    options = filled(DatasetOptions, values)
+    check_output(output, POINT_FORMATS)
+    check_not_input(output, str(mesh))
+    with shown(quiet) as progress:
+        tell(progress, "reading", 0.0)
+        vertices, faces = read_surface(mesh)
+        if output.suffix.lower() == ".npz":
+            from hdpea.dataset.making import make_sample
+            from hdpea.dataset.sample_file import write_sample
+
+            as_scan = replace(options, sample=replace(options.sample, kind="scan"))
+            write_sample(output, make_sample(vertices, faces, as_scan, options.scanning.seed, progress))
+        else:
+            from hdpea.dataset.scan_file import write_scan
+            from hdpea.dataset.scanning import scan_surface
+            from hdpea.frame import UnitFrame
+
+            tell(progress, "scanning", 0.0)
+            frame = UnitFrame.around(vertices)
+            write_scan(output, scan_surface(frame.to_unit(vertices), faces, options.scanning), frame)

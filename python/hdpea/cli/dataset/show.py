@@ -1,0 +1,35 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""``hdpea dataset show``: a picture of a sample."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+
+from hdpea.cli.parameters import GroupedCommand
+
+EPILOG = """\b
+Examples:
+  hdpea dataset show samples/samples/bunny.npz bunny.png
+"""
+
+
+@click.command(cls=GroupedCommand, epilog=EPILOG, no_args_is_help=True, short_help="Draw a sample.")
+@click.argument("source", metavar="IN", type=click.Path(path_type=Path))
+@click.argument("output", metavar="OUT", type=click.Path(path_type=Path))
+def command(source: Path, output: Path) -> None:
+    """Draw the sample IN as the PNG file OUT, thrice; needs no screen.
+
+    From left to right: the normals as colours; the first three principal components of psi as
+    red, green and blue; the ratio of the stretches, from blue (1) to red, with strokes along the
+    direction of the smaller curvature, in which the triangles of a mesh will be long.
+    """
+    from hdpea.dataset.sample_file import read_sample
+    from hdpea.dataset.showing import draw_sample
+    from hdpea.outputs import check_output
+    from hdpea.picture import PICTURE_FORMATS, check_drawing
+
+    check_output(output, PICTURE_FORMATS)
+    check_drawing()
+    draw_sample(output, read_sample(source))

@@ -1,0 +1,27 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Groups of commands that are imported only when asked for, so that help is instant."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from importlib import import_module
+
+import click
+
+
+def lazy_group(package: str, commands: Sequence[str]) -> type[click.Group]:
+    """Return the class of a group whose commands are the ``command`` of each module of those names in `package`."""
+
+    class LazyGroup(click.Group):
+        def list_commands(self, _ctx: click.Context) -> list[str]:
+            # The most important first, where click would sort them.
+            return list(commands)
+
+        def get_command(self, _ctx: click.Context, name: str) -> click.Command | None:
+            if name not in commands:
+                return None
+            command: click.Command = import_module(f"{package}.{name}").command
+            command.name = name
+            return command
+
+    return LazyGroup

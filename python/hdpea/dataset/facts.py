@@ -1,0 +1,46 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What is in a sample, in numbers."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hdpea.dataset.options import GroundTruthOptions
+from hdpea.dataset.sample import Sample
+
+PERCENTILES = (0, 5, 50, 95, 100)
+
+
+@dataclass(frozen=True)
+class SampleFacts:
+    """Percentiles (0, 5, 50, 95, 100) of what is known of the points, by name, and what the sample holds besides."""
+
+    points: int
+    optional: tuple[str, ...]
+    ranges: dict[str, NDArray[np.float64]]
+
+
+def sample_facts(sample: Sample, options: GroundTruthOptions) -> SampleFacts:
+    """Return the facts of a sample whose metric is that of `options`."""
+    stretch = stretches(sample.curvatures, options)
+    ranges = {
+        "k1": sample.curvatures[:, 0],
+        "k2": sample.curvatures[:, 1],
+        "stretch along k1": stretch[:, 0],
+        "stretch along k2": stretch[:, 1],
+        "ratio of the stretches": stretch[:, 0] / stretch[:, 1],
+        "distance to the surface": np.linalg.norm(sample.points - sample.surface_points, axis=1),
+    }
+    optional = tuple(name for name in ("estimated_normals", "sensors") if getattr(sample, name) is not None)
+    return SampleFacts(
+        len(sample.points), optional, {name: np.percentile(values, PERCENTILES) for name, values in ranges.items()}
+    )
+
+
+def stretches(curvatures: NDArray[np.float32], options: GroundTruthOptions) -> NDArray[np.float64]:
+    """Return how much the metric stretches along the principal directions (n, 2): sqrt(clamp(c |k|, 1, s_max^2))."""
+    scaled = options.metric_scale * abs(curvatures.astype(np.float64))
+    return np.sqrt(np.clip(scaled, 1, options.max_stretch**2))

@@ -1,0 +1,27 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A scan as a PLY file, for any program that reads points."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from hdpea.dataset.scanning import Scan
+from hdpea.frame import UnitFrame
+from hdpea.outputs import check_output, replacing
+from hdpea.writing import point_ply
+
+SENSOR_NAMES = ("sensor_x", "sensor_y", "sensor_z")
+
+
+def write_scan(path: Path, scan: Scan, frame: UnitFrame) -> None:
+    """Write the points of a scan in world coordinates, their normals, and where the sensor stood that saw each.
+
+    Raises
+    ------
+    UsageError
+        If the file cannot be written, or is not PLY by its name.
+    """
+    check_output(path, (".ply",))
+    others = dict(zip(SENSOR_NAMES, frame.to_world(scan.sensors).T, strict=True))
+    with replacing(path) as partial:
+        partial.write_bytes(point_ply(frame.to_world(scan.points), scan.normals, others))
