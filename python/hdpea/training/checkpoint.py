@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import pickle
+import zipfile
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, fields
 from pathlib import Path
@@ -68,12 +69,17 @@ class Checkpoint:
             If it is missing, truncated, or no checkpoint of this version.
         """
         hint = "A checkpoint is a file that `hdpea train` wrote."
+        broken = f"{path} is truncated, or no checkpoint."
         try:
+            with path.open("rb") as file:
+                # What torch does with other files is to read them as an old format, and to fail in many ways.
+                if not zipfile.is_zipfile(file):
+                    raise UnreadableInput(broken, hint)
             content = torch.load(path, map_location="cpu", weights_only=True)
         except OSError as error:
             raise UnreadableInput(f"Cannot read {path}: {error.strerror or error}.", hint) from error
         except (RuntimeError, EOFError, ValueError, pickle.UnpicklingError) as error:
-            raise UnreadableInput(f"{path} is truncated, or no checkpoint.", hint) from error
+            raise UnreadableInput(broken, hint) from error
         if not isinstance(content, Mapping) or "format" not in content:
             raise UnreadableInput(f"{path} is no checkpoint.", hint)
         if content["format"] != FORMAT:
