@@ -21,6 +21,7 @@ from hdpea.network.inference import predict_psi
 from hdpea.network.transformer import PointTransformer
 from hdpea.training.checkpoint import FORMAT, Checkpoint
 from hdpea.training.crops import crop_number, cut_crop
+from hdpea.training.joined import Joined
 from hdpea.training.loop import train
 from hdpea.training.options import PRESETS, CropOptions, LossOptions, TrainingOptions
 from hdpea.training.steps import Training, learning_share
@@ -117,6 +118,13 @@ def test_crops_are_functions_of_their_number_and_take_turns() -> None:
     for number in range(6):
         crop_number(number, samples, options, 16, 0)
     assert sorted(read[:3]) == sorted(read[3:]) == samples.names
+
+
+def test_datasets_are_joined_one_after_the_other() -> None:
+    first, second = InMemory(), InMemory({"0": torus_sample(100), "other": torus_sample(200)})
+    joined = Joined([first, second])
+    assert len(set(joined.names)) == 5
+    assert [len(joined.read(name).points) for name in joined.names] == [400, 400, 400, 100, 200]
 
 
 def test_crops_are_what_was_asked_for() -> None:

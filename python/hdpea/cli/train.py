@@ -31,6 +31,13 @@ def _use_preset(ctx: click.Context, _: click.Parameter, name: str) -> str:
 @click.argument("dataset", type=click.Path(path_type=Path))
 @click.argument("out", type=click.Path(path_type=Path))
 @click.option(
+    "--also",
+    cls=GroupedOption,
+    type=click.Path(path_type=Path),
+    multiple=True,
+    help="a further dataset to train on, such as one of scans; may be given again",
+)
+@click.option(
     "--validation",
     cls=GroupedOption,
     type=click.Path(path_type=Path),
@@ -65,6 +72,7 @@ def command(
     *,
     dataset: Path,
     out: Path,
+    also: tuple[Path, ...],
     validation: Path | None,
     network: str,
     tensorboard: bool,
@@ -87,10 +95,11 @@ def command(
     from hdpea.training.stopping import stop_requests
     from hdpea.training.workers import joined_workers
 
-    samples = Dataset(dataset)
+    datasets = [Dataset(folder) for folder in (dataset, *also)]
     judged = Dataset(validation) if validation else None
     out.mkdir(exist_ok=True) if out.parent.is_dir() else None
     check_output(out / LAST, [".pt"])
+    from hdpea.training.joined import Joined
     from hdpea.training.loop import train
 
     def tell(line: str) -> None:
@@ -98,4 +107,4 @@ def command(
             click.echo(line, err=True)
 
     with joined_workers() as workers, stop_requests() as stopped:
-        train(samples, judged, out, CONFIGURATIONS[network], options, stopped, workers, tensorboard, tell)
+        train(Joined(datasets), judged, out, CONFIGURATIONS[network], options, stopped, workers, tensorboard, tell)

@@ -48,7 +48,9 @@ class Journal:
     def validate(self, validation: Samples) -> None:
         """Reconstruct clouds from the averaged weights, write the scores, keep the weights if they are the best."""
         training, started = self.training, time.monotonic()
-        names = list(validation.names)[: training.options.validation_clouds]
+        # Spread over the names, which tell of families.
+        count = min(training.options.validation_clouds, len(validation.names))
+        names = [validation.names[place * len(validation.names) // count] for place in range(count)]
         if self.writes and names:
             samples = (validation.read(name) for name in names)
             scores = validate(training.averaged_network(), samples, training.options.validation_vertices)
