@@ -67,13 +67,18 @@ class PointTransformer(nn.Module):
         x = self._unet(_pooled(self.enter(features), index, len(voxels.cells)), voxels)
         x = self.leave(torch.cat([rows(x, index), features], dim=1))
         psi: Tensor = LENGTH * self.psi(x)  # (n, 5)
+        neighbors = clouds.neighbors[:, : self.options.stem_neighbors]
         share = self.options.normal_share
         if share:
+            # Facets and noise make normals jump, which psi never does.
+            normals = clouds.normals
+            for _ in range(self.options.normal_rounds):
+                normals = _smoothed(normals, clouds.normals, neighbors)
             # Round a cylinder of radius r, the solution is the normal times sqrt(c r - r^2).
             gate = share * (1 + GATE_STEP * self.gate(x)) if self.gate is not None else share
-            psi = psi + nn.functional.pad(gate * clouds.normals, (0, OUTPUTS - 3))
+            psi = psi + nn.functional.pad(gate * normals, (0, OUTPUTS - 3))
         for _ in range(self.options.smoothing):
-            psi = _smoothed(psi, clouds.normals, clouds.neighbors[:, : self.options.stem_neighbors])
+            psi = _smoothed(psi, clouds.normals, neighbors)
         return psi
 
     def _points(self, clouds: Clouds) -> tuple[Voxels, Tensor, Tensor]:
@@ -104,8 +109,10 @@ class PointTransformer(nn.Module):
 
     def _curves(self) -> list[int]:
         """Return the curves in the order in which blocks take turns: shuffled in training, else as listed."""
+        if not self.training:
+            return list(range(len(CURVES)))
         shuffled: list[int] = torch.randperm(len(CURVES)).tolist()
-        return shuffled if self.training else list(range(len(CURVES)))
+        return shuffled
 
     @staticmethod
     def _run(blocks: nn.Module, x: Tensor, voxels: Voxels, curves: list[int]) -> Tensor:
@@ -124,13 +131,13 @@ def _pooled(x: Tensor, index: Tensor, count: int) -> Tensor:
     return sums / torch.bincount(index, minlength=count)[:, None]
 
 
-def _smoothed(psi: Tensor, normals: Tensor, neighbors: Tensor) -> Tensor:
-    """Return psi (n, 5) averaged over each point and its neighbours, the less the more their normals differ.
+def _smoothed(values: Tensor, normals: Tensor, neighbors: Tensor) -> Tensor:
+    """Return values (n, c) averaged over each point and its neighbours, the less the more their normals differ.
 
     What the network says varies from point to point more than psi can, and meshing asks for planes that agree;
     the far side of a thin wall has no say.
     """
     cosine = (rows(normals, neighbors) * normals[:, None]).sum(dim=2)  # (n, k)
     weight = ((1 + cosine) / 2).clamp_min(0).square()
-    nearby = (rows(psi, neighbors) * weight[:, :, None]).sum(dim=1)  # (n, 5)
-    return (psi + nearby) / (1 + weight.sum(dim=1, keepdim=True))
+    nearby = (rows(values, neighbors) * weight[:, :, None]).sum(dim=1)  # (n, c)
+    return (values + nearby) / (1 + weight.sum(dim=1, keepdim=True))
