@@ -59,7 +59,8 @@ def test_a_training_that_was_stopped_ends_as_one_that_was_not(tmp_path: Path) ->
 
 
 def test_the_loss_falls(tmp_path: Path) -> None:
-    train(InMemory(), None, tmp_path, TINY, replace(QUICK, steps=60, log_every=10))
+    from_nothing = replace(TINY, normal_share=0.0)
+    train(InMemory(), None, tmp_path, from_nothing, replace(QUICK, steps=60, log_every=10, learning_rate=0.01))
     lines = [json.loads(line) for line in (tmp_path / "metrics.jsonl").read_text().splitlines()]
     assert [line["step"] for line in lines] == [10, 20, 30, 40, 50, 60]
     assert lines[-1]["loss"] < 0.8 * lines[0]["loss"]

@@ -19,8 +19,11 @@ LENGTH = 0.005
 OUTPUTS = 5
 """The dimensions of psi."""
 
-GATE_STEP = 0.1
-"""How far the gate opens for an output of 1: about as far as the other outputs move psi, that gradients be alike."""
+PSI_STEP, GATE_STEP = 0.05, 0.25
+"""How far outputs of 1 move psi, and the gate as a share of itself; both about as far, that gradients be alike."""
+
+FIRST_OUTPUTS = 0.1
+"""Factor on the first weights of the outputs: what an untrained network adds to the normals is jitter."""
 
 ORIGIN = 0.381966
 """Where the centre of a cloud lies in its voxel: a symmetric cloud must have no plane of points between voxels."""
@@ -56,6 +59,10 @@ class PointTransformer(nn.Module):
         self.leave = _mapped(width + point_channels, width)
         self.psi = nn.Linear(width, OUTPUTS)
         self.gate = nn.Linear(width, 1) if o.normal_gate else None
+        with torch.no_grad():
+            for last in (self.psi, self.gate):
+                if last is not None:
+                    last.weight *= FIRST_OUTPUTS
 
     def _blocks(self, channels: int, depth: int) -> nn.ModuleList:
         o = self.options
@@ -66,7 +73,7 @@ class PointTransformer(nn.Module):
         voxels, index, features = self._points(clouds)
         x = self._unet(_pooled(self.enter(features), index, len(voxels.cells)), voxels)
         x = self.leave(torch.cat([rows(x, index), features], dim=1))
-        psi: Tensor = LENGTH * self.psi(x)  # (n, 5)
+        psi: Tensor = PSI_STEP * self.psi(x)  # (n, 5)
         neighbors = clouds.neighbors[:, : self.options.stem_neighbors]
         share = self.options.normal_share
         if share:

@@ -67,11 +67,13 @@ def metric_errors(gradient: Tensor, true_gradient: Tensor) -> Tensor:
     sum (l + 1/l) / 2 - 1; about |log l| where they are close, the same for twice and half.
     """
     metric, true = _metric(gradient), _metric(true_gradient)
-    there, back = _trace_of_quotient(metric, true), _trace_of_quotient(true, metric)
+    apart = metric - true
+    # tr(A^-1 B) + tr(B^-1 A) - 4 = tr(A^-1 (A - B) B^-1 (A - B)), in which nothing cancels.
+    product = (_adjugate(metric) @ apart) * (_adjugate(true) @ apart).mT
+    divergence: Tensor = product.sum(dim=(1, 2)) / (2 * _determinant(metric) * _determinant(true))
     # The root of 0 has no gradient.
     floor = 1e-4
-    divergence: Tensor = ((there + back) / 2 - 2).clamp_min(0)
-    return (divergence + floor**2).sqrt() - floor
+    return (divergence.clamp_min(0) + floor**2).sqrt() - floor
 
 
 def loss_parts(psi: Tensor, truth: Truth, options: LossOptions) -> dict[str, Tensor]:
@@ -119,10 +121,13 @@ def _squared_distances(values: Tensor, neighbors: Tensor) -> Tensor:
     return (rows(values, neighbors) - values[:, None]).square().sum(dim=2) + 1e-12
 
 
-def _trace_of_quotient(a: Tensor, b: Tensor) -> Tensor:
-    """Return the trace (n,) of inverse(b) a, for symmetric 2 x 2 matrices (n, 2, 2)."""
-    adjugate = b[:, 1, 1] * a[:, 0, 0] - 2 * b[:, 0, 1] * a[:, 0, 1] + b[:, 0, 0] * a[:, 1, 1]
-    return adjugate / (b[:, 0, 0] * b[:, 1, 1] - b[:, 0, 1].square())
+def _adjugate(a: Tensor) -> Tensor:
+    """Return the inverse times the determinant of symmetric matrices (n, 2, 2)."""
+    return torch.stack([a[:, 1, 1], -a[:, 0, 1], -a[:, 0, 1], a[:, 0, 0]], dim=1).view(-1, 2, 2)
+
+
+def _determinant(a: Tensor) -> Tensor:
+    return a[:, 0, 0] * a[:, 1, 1] - a[:, 0, 1].square()
 
 
 def _metric(gradient: Tensor) -> Tensor:
