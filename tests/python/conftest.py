@@ -1,8 +1,28 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 from __future__ import annotations
 
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
 from hypothesis import settings
+
+from hdpea.cli import run
 
 # A busy machine must not fail a test; random examples are for people, repeatable ones for gates.
 settings.register_profile("hdpea", deadline=None, derandomize=True)
 settings.load_profile("hdpea")
+
+
+@pytest.fixture
+def failed(capsys: pytest.CaptureFixture[str]) -> Callable[..., str]:
+    """Return a function that runs a command and returns its error, having checked its exit code and manners."""
+
+    def failed(exit_code: int, *arguments: str | Path) -> str:
+        assert run([str(each) for each in arguments]) == exit_code
+        error = capsys.readouterr().err
+        assert "Traceback" not in error
+        assert sum(line.startswith("Error: ") for line in error.splitlines()) == 1
+        return error
+
+    return failed

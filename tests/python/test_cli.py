@@ -37,20 +37,6 @@ def scan(tmp_path: Path) -> str:
     return str(tmp_path / "scan.xyz")
 
 
-@pytest.fixture
-def failed(capsys: Capture) -> Callable[..., str]:
-    """Return a function that runs a command and returns its error, having checked its exit code and manners."""
-
-    def failed(exit_code: int, *arguments: str | Path) -> str:
-        assert run([str(each) for each in arguments]) == exit_code
-        error = capsys.readouterr().err
-        assert "Traceback" not in error
-        assert sum(line.startswith("Error: ") for line in error.splitlines()) == 1
-        return error
-
-    return failed
-
-
 def test_a_mesh_is_made_and_summed_up(scan: str, tmp_path: Path, capsys: Capture) -> None:
     assert run(["reconstruct", scan, str(tmp_path / "mesh.obj")]) == 0
     assert len(trimesh.load(tmp_path / "mesh.obj", process=False).faces) == 200

@@ -25,7 +25,14 @@ def test_help_imports_nothing_heavy() -> None:
     check = (
         f"import sys; from hdpea.cli import run; assert run(sys.argv[1:]) == 0; print(set({HEAVY}) & set(sys.modules))"
     )
-    for arguments in (["--help"], ["reconstruct", "--help"], ["train", "--help"], ["--version"]):
+    for arguments in (
+        ["--help"],
+        ["reconstruct", "--help"],
+        ["train", "--help"],
+        ["--version"],
+        ["dataset", "--help"],
+        *(["dataset", command, "--help"] for command in ("build", "scan", "degrade", "info", "show")),
+    ):
         ran = subprocess.run([sys.executable, "-c", check, *arguments], capture_output=True, text=True, check=True)
         assert ran.stdout.endswith("set()\n")
 

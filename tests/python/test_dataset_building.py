@@ -119,7 +119,8 @@ def test_a_finished_dataset_is_kept_and_a_damaged_or_changed_part_made_anew(tmp_
     build_dataset(str(meshes), tmp_path / "out", options())
     whole = contents(tmp_path / "out")
     (tmp_path / "out" / "samples" / "b.npz").write_bytes(b"damaged")
-    (tmp_path / "out" / "samples" / ".c.123.npz").write_bytes(b"half-written by a killed run")
+    for half_written in ("samples/.c.123.npz", ".manifest.123.json"):
+        (tmp_path / "out" / half_written).write_bytes(b"by a killed run")
     assert build_dataset(str(meshes), tmp_path / "out", options()).kept == 2
     assert contents(tmp_path / "out") == whole
     write_meshes(tmp_path / "meshes", "0", "b")  # b is of another size now

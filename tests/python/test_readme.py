@@ -52,7 +52,7 @@ def test_the_exit_codes_are_those_of_the_errors() -> None:
 
 @pytest.mark.slow
 def test_the_example_runs(capsys: pytest.CaptureFixture[str]) -> None:
-    (example,) = re.findall(r"```python\n(.*?)```", README, re.DOTALL)
+    example, _ = re.findall(r"```python\n(.*?)```", README, re.DOTALL)
     exec(compile(example, "README.md", "exec"), {})  # noqa: S102 it is our own
     assert "(1000, 3)" in capsys.readouterr().out
 

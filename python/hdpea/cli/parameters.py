@@ -29,6 +29,20 @@ class LengthType(click.ParamType[Length]):
             self.fail(f"{error}.", param, ctx)
 
 
+class ShareType(click.ParamType[float]):
+    """A number such as ``0.003``, which many prefer to write as ``0.3%`` where it is a share."""
+
+    name = "float"
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> float:
+        """Return the number; a usage error if it is none."""
+        text = str(value).strip()
+        try:
+            return float(text.removesuffix("%")) / 100 if text.endswith("%") else float(text)
+        except ValueError:
+            self.fail(f"{text!r} is not a number such as 0.003 or 0.3%.", param, ctx)
+
+
 class GroupedOption(click.Option):
     """An option listed under a heading of its own in the help."""
 
@@ -77,7 +91,7 @@ def setting_options(
 
 def _flag(setting: Setting) -> Callable[[Decorated], Decorated]:
     flag = "--" + setting.name.replace("_", "-")
-    kinds: dict[type, Any] = {Length: LengthType()}
+    kinds: dict[type, Any] = {Length: LengthType(), float: ShareType()}
     return click.option(
         f"{flag}/--no-{flag[2:]}" if setting.kind is bool else flag,
         cls=GroupedOption,

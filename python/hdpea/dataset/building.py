@@ -92,7 +92,7 @@ def build_dataset(
         told(f"{name}: is there already")
     jobs = options.jobs or os.cpu_count() or 1
     tasks = [
-        Task(source, options, seed_of(source.name, options.sampling.seed), max((os.cpu_count() or 1) // jobs, 1))
+        Task(source, options, seed_of(source.name, options.seed), max((os.cpu_count() or 1) // jobs, 1))
         for source in sources
         if source.name not in done
     ]

@@ -3,18 +3,20 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 from numpy.typing import NDArray
 
 from hdpea.normals import oriented_surface
 
 
-def estimated_normals(points: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return unit normals (n, 3) of points (n, 3), estimated and oriented as ``hdpea reconstruct`` would.
+def estimated_normals(points: NDArray[np.floating[Any]]) -> NDArray[np.float32]:
+    """Return unit normals (n, 3) float32 of points (n, 3), estimated and oriented as ``hdpea reconstruct`` would.
 
     Raises
     ------
     CannotReconstruct
         If the points are too few, equal or on a line.
     """
-    return oriented_surface(points).surface.normals
+    return oriented_surface(points.astype(np.float64)).surface.normals.astype(np.float32)

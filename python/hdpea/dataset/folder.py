@@ -12,7 +12,7 @@ from hdpea.dataset.manifest import MANIFEST_NAME, Manifest, MeshEntry, read_mani
 from hdpea.dataset.sources import MeshSource
 from hdpea.errors import UsageError
 
-_HALF_WRITTEN = re.compile(r"\..+\.\d+\.npz")
+_HALF_WRITTEN = re.compile(r"\..+\.\d+\.(npz|json|md)")
 
 
 def open_folder(folder: Path, manifest: Manifest, sources: Sequence[MeshSource]) -> dict[str, MeshEntry]:
@@ -38,7 +38,7 @@ def open_folder(folder: Path, manifest: Manifest, sources: Sequence[MeshSource])
         raise UsageError(f"{folder} is not empty, and not a dataset.", "Choose another folder.")
     earlier = read_manifest(folder)
     _require_same(folder, earlier, manifest, sources)
-    for path in (folder / "samples").rglob(".*.npz"):
+    for path in folder.rglob(".*"):
         if _HALF_WRITTEN.fullmatch(path.name):
             path.unlink()
     by_name = {each.name: each for each in sources}

@@ -8,7 +8,7 @@ import signal
 import threading
 import time
 from collections import deque
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Generator, Sequence
 from dataclasses import dataclass
 from multiprocessing import get_context, parent_process
 from multiprocessing.connection import Connection, wait
@@ -32,7 +32,7 @@ class Outcome(Generic[Result]):
 
 def run_isolated(
     function: Callable[[Task], Result], tasks: Sequence[Task], jobs: int, time_limit: float
-) -> Iterator[Outcome[Result]]:
+) -> Generator[Outcome[Result], None, None]:
     """Apply `function` to every task, `jobs` at a time; yield the outcomes as they come, in any order.
 
     An exception, a crash of the process, or more than `time_limit` seconds make a task fail, and only that one.

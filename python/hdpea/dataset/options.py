@@ -31,6 +31,26 @@ class SamplingOptions(Checked):
 
 
 @dataclass(frozen=True)
+class DegradationOptions(Checked):
+    """How a sample is made worse; 0 leaves it alone. Lengths are shares of the bounding-box diagonal."""
+
+    clipped: bool = option(False, "keep only one side of a plane through the middle of the points")
+    missing: int = option(0, "balls to cut out, around points of the surface", minimum=0)
+    missing_radius: float = option(0.05, "radius of these balls", minimum=0)
+    density: str = option(
+        "even",
+        "gradient: thinned out along the longest axis; striped: in stripes across it; fewer points remain",
+        choices=("even", "gradient", "striped"),
+    )
+    noise: float = option(
+        0.0, "std of Gaussian noise on each coordinate of the points (paper: 0.001 to 0.005)", minimum=0
+    )
+    outliers: float = option(0.0, "share of the points that are moved to anywhere", minimum=0, maximum=1)
+    normal_noise: float = option(0.0, "std of Gaussian noise on the normals (paper: 0.001, 0.002)", minimum=0)
+    seed: int = option(0, "seed of everything random; the same seed gives the same points", minimum=0)
+
+
+@dataclass(frozen=True)
 class ScanOptions(Checked):
     """How a mesh is scanned by a simulated range sensor; lengths are shares of its bounding-box diagonal."""
 
@@ -73,3 +93,14 @@ class DatasetOptions(Checked):
     ground_truth: GroundTruthOptions = GroundTruthOptions()
     jobs: int = option(0, "meshes at a time, which share the cores; 0: one for each core", minimum=0)
     time_limit: float = option(3600, "seconds after which a mesh is given up and skipped", minimum=0)
+
+    @property
+    def source_of_points(self) -> str:
+        """The stage that the points come from; the other one does nothing."""
+        return "scanning" if self.sample.kind == "scan" else "sampling"
+
+    @property
+    def seed(self) -> int:
+        """The seed of that stage."""
+        seed: int = getattr(self, self.source_of_points).seed
+        return seed

@@ -14,9 +14,10 @@ from hdpea.settings import RUN, as_dict
 def recorded_options(options: DatasetOptions) -> dict[str, dict[str, Any]]:
     """Return all that the bytes of a dataset depend on, by stage and name; fit for JSON."""
     listed = as_dict(options)
-    # How the work was shared out changes nothing; the method is the kind of the sample.
+    # How the work was shared out changes nothing, and the method of sampling is the kind of the sample.
     del listed[RUN], listed["sampling"]["method"]
-    return listed
+    stages = ("sample", options.source_of_points, "ground_truth")
+    return {stage: listed[stage] for stage in stages}
 
 
 def options_recorded(listed: Mapping[str, Mapping[str, Any]], **run: Any) -> DatasetOptions:

@@ -73,13 +73,14 @@ def points_at(
     vertices: NDArray[np.float64], corners: NDArray[np.int64], barycentric: NDArray[np.float64]
 ) -> NDArray[np.float64]:
     """Return the points (n, 3) of the triangles with `corners` (n, 3) by their barycentric weights (n, 3)."""
-    return np.einsum("nk,nkc->nc", barycentric, vertices[corners])
+    points: NDArray[np.float64] = np.einsum("nk,nkc->nc", barycentric, vertices[corners])
+    return points
 
 
 def _uniform_by_area(
     vertices: NDArray[np.float64], faces: NDArray[np.int64], count: int, rng: np.random.Generator
 ) -> SurfaceSamples:
-    """Return points uniform by area (Osada et al., Shape Distributions, 2002, section 4.1)."""
+    """Return points uniform by area (Osada et al., Shape Distributions, 2002)."""
     normals, areas = face_normals(vertices, faces)
     _, distinct = np.unique(np.sort(faces, axis=1), axis=0, return_index=True)
     candidates = np.sort(distinct[areas[distinct] > 0])

@@ -127,4 +127,5 @@ class _Scanner:
 
     def _returns(self, cosines: NDArray[np.float64]) -> NDArray[np.bool_]:
         fading = np.cos(np.radians(self._options.grazing))
-        return (cosines > 0) & (cosines >= fading * self._rng.random(len(cosines)))
+        returns: NDArray[np.bool_] = (cosines > 0) & (cosines >= fading * self._rng.random(len(cosines)))
+        return returns

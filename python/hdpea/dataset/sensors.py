@@ -34,10 +34,10 @@ def sensor_positions(options: ScanOptions, rng: np.random.Generator) -> NDArray[
         elevation = np.resize(ELEVATIONS, options.views)
         directions = _on_sphere(azimuth, np.sin(elevation))
     else:
-        height = 1 - 2 * options.coverage * (each + 0.5) / options.views
-        directions = _on_sphere(GOLDEN_ANGLE * each, height) @ random_rotation(rng).T
+        height: NDArray[np.float64] = 1 - 2 * options.coverage * (each + 0.5) / options.views
+        directions = _on_sphere(GOLDEN_ANGLE * each.astype(np.float64), height) @ random_rotation(rng).T
     directions += JITTER * rng.standard_normal(directions.shape)
-    return options.distance * directions / np.linalg.norm(directions, axis=1, keepdims=True)
+    return options.distance * _unit(directions)
 
 
 def camera_rays(position: NDArray[np.float64], resolution: int, roll: float) -> NDArray[np.float64]:
@@ -62,10 +62,14 @@ def camera_rays(position: NDArray[np.float64], resolution: int, roll: float) -> 
     seen = x**2 + y**2 <= 1
     opening = MODEL_RADIUS / (distance**2 - MODEL_RADIUS**2) ** 0.5  # tangent of half the angle of view
     plane = np.outer(x[seen], right) + np.outer(y[seen], np.cross(forward, right))
-    directions = forward + opening * plane
-    return directions / np.linalg.norm(directions, axis=1, keepdims=True)
+    return _unit(forward + opening * plane)
 
 
 def _on_sphere(azimuth: NDArray[np.float64], height: NDArray[np.float64]) -> NDArray[np.float64]:
     radius = np.sqrt(1 - height**2)
     return np.stack([radius * np.cos(azimuth), radius * np.sin(azimuth), height], axis=1)
+
+
+def _unit(vectors: NDArray[np.float64]) -> NDArray[np.float64]:
+    unit: NDArray[np.float64] = vectors / np.linalg.norm(vectors, axis=1, keepdims=True)
+    return unit

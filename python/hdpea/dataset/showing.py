@@ -58,14 +58,21 @@ def draw_sample(path: Path, sample: Sample, options: GroundTruthOptions | None =
         off_screen=True, shape=(1, len(panels)), window_size=[PANEL[0] * len(panels), PANEL[1]], border=False
     )
     plotter.background_color = pyvista.Color("white")
+    size = _point_size(int(facing.sum()))
     for column, colors in enumerate(panels):
         plotter.subplot(0, column)
         # Points hide nothing behind them: those of the far side are left out.
-        plotter.add_points(points[facing], scalars=colors[facing], rgb=True, point_size=_point_size(facing.sum()))
+        plotter.add_points(
+            points[facing],
+            scalars=colors[facing],
+            rgb=True,
+            point_size=size,
+            render_points_as_spheres=True,
+            lighting=False,
+        )
         _look_at(plotter, points)
     direction2 = np.cross(sample.normals, sample.direction1) @ view_from_unit.T
     _add_strokes(plotter, pyvista, points, direction2, ratio, np.flatnonzero(facing))
-    plotter.enable_anti_aliasing("ssaa")
     with replacing(path) as partial:
         plotter.screenshot(partial)
     plotter.close()
@@ -102,8 +109,8 @@ def _bytes(shares: NDArray[Any]) -> Colors:
 
 
 def _point_size(points: int) -> float:
-    """Return the diameter in pixels at which so many points just cover a third of their panel."""
-    return float(np.clip((PANEL[0] * PANEL[1] / 3 / max(points, 1)) ** 0.5 * 1.3, 2, 12))
+    """Return the width in pixels at which so many random points leave few gaps in a third of their panel."""
+    return float(np.clip(2.5 * (PANEL[0] * PANEL[1] / 3 / max(points, 1)) ** 0.5, 2, 40))
 
 
 def _look_at(plotter: Any, points: NDArray[np.float64]) -> None:

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 from click.core import ParameterSource
@@ -12,6 +12,9 @@ from click.core import ParameterSource
 from hdpea.cli.parameters import GroupedCommand, GroupedOption, quiet_option, setting_options
 from hdpea.dataset.options import DatasetOptions
 from hdpea.errors import UsageError
+
+if TYPE_CHECKING:
+    from hdpea.dataset.building import Built
 
 EPILOG = """\b
 Examples:
@@ -49,8 +52,8 @@ def command(ctx: click.Context, /, *, meshes: str, output: Path, like: Path | No
     """
     from hdpea.dataset.building import build_dataset
     from hdpea.dataset.manifest import read_manifest
-    from hdpea.dataset.recorded_options import options_recorded
     from hdpea.dataset.rebuilding import require_same_bytes
+    from hdpea.dataset.recorded_options import options_recorded
     from hdpea.settings import RUN, filled, settings
 
     wanted = None if like is None else read_manifest(like)
@@ -70,7 +73,7 @@ def command(ctx: click.Context, /, *, meshes: str, output: Path, like: Path | No
         require_same_bytes(wanted, built.manifest)
 
 
-def _summary(output: Path, built: Any) -> str:
+def _summary(output: Path, built: Built) -> str:
     manifest = built.manifest
     skipped = sum(mesh.skipped is not None for mesh in manifest.meshes)
     size = sum(sample.bytes for sample in manifest.samples)

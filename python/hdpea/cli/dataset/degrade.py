@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -13,7 +14,7 @@ from hdpea.dataset.options import DegradationOptions
 
 EPILOG = """\b
 Examples:
-  hdpea dataset degrade bunny.npz noisy.npz --noise 0.003
+  hdpea dataset degrade bunny.npz noisy.npz --noise 0.3%
   hdpea dataset degrade bunny.npz torn.npz --missing 5 --density striped --seed 7
 """
 
@@ -25,10 +26,11 @@ Examples:
 def command(source: Path, output: Path, **values: Any) -> None:
     """Make the sample IN worse, as scans are, and write it as OUT; both are NPZ.
 
-    The truth stays that of the surface points that the points stand for. Lengths are shares of the
-    diagonal of the mesh's bounding box.
+    The truth stays that of the surface points that the points stand for; estimated normals, if IN
+    has them, are estimated anew. Lengths are shares of the diagonal of the mesh's bounding box.
     """
     from hdpea.dataset.degradation import degraded
+    from hdpea.dataset.estimation import estimated_normals
     from hdpea.dataset.sample_file import SAMPLE_FORMATS, read_sample, write_sample
     from hdpea.outputs import check_not_input, check_output
     from hdpea.settings import filled
@@ -36,4 +38,8 @@ def command(source: Path, output: Path, **values: Any) -> None:
     options = filled(DegradationOptions, values)
     check_output(output, SAMPLE_FORMATS)
     check_not_input(output, str(source))
-    write_sample(output, degraded(read_sample(source), options))
+    sample = read_sample(source)
+    worse = degraded(sample, options)
+    if sample.estimated_normals is not None:
+        worse = replace(worse, estimated_normals=estimated_normals(worse.points))
+    write_sample(output, worse)
