@@ -26,8 +26,8 @@ class NetworkOptions(Checked):
     stem_neighbors: int = option(16, "nearest points that they look at", minimum=1)
     normal_share: float = option(0.2, "psi is this times the normal, as the solver's is at first, plus what is learned")
     normal_gate: bool = option(True, "that share is learned point by point, and only begins so")
-    normal_rounds: int = option(3, "times the normals are averaged over the same neighbours before that", minimum=0)
-    smoothing: int = option(1, "times psi is averaged over the same neighbours, as the last layer", minimum=0)
+    normal_rounds: int = option(2, "times the normals are averaged over the same neighbours before that", minimum=0)
+    smoothing: int = option(2, "times psi is averaged over the same neighbours, as the last layer", minimum=0)
     seed: int = option(0, "seed of the first weights", minimum=0)
 
     def __post_init__(self) -> None:
