@@ -8,10 +8,9 @@ from collections.abc import Callable, Iterator
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
-import torch
-
 from hdpea.errors import Interrupted
 from hdpea.network.options import NetworkOptions
+from hdpea.threads import limited_threads
 from hdpea.training.checkpoint import Checkpoint
 from hdpea.training.crops import Crop, Samples
 from hdpea.training.journal import LAST, Journal
@@ -48,12 +47,16 @@ def train(
     tell
         Is given each line of the journal.
     """
-    torch.set_num_threads(options.threads)
-    training = Training(samples, network, options, workers)
-    if (out / LAST).exists():
-        training.resume(Checkpoint.read(out / LAST))
-    journal = Journal(training, out, board, tell)
-    saved = time.monotonic()
+    with limited_threads(options.threads):
+        training = Training(samples, network, options, workers)
+        if (out / LAST).exists():
+            training.resume(Checkpoint.read(out / LAST))
+        _run(training, validation, Journal(training, out, board, tell), stopped)
+    return training
+
+
+def _run(training: Training, validation: Samples | None, journal: Journal, stopped: Callable[[], bool]) -> None:
+    options, saved = training.options, time.monotonic()
     for crop in _prefetched(training):
         journal.add(training.run_step(crop))
         ended = training.step == training.steps
@@ -68,7 +71,6 @@ def train(
             saved = time.monotonic()
         if ending:
             raise Interrupted
-    return training
 
 
 def _prefetched(training: Training) -> Iterator[Crop]:
