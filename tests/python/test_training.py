@@ -78,7 +78,7 @@ def test_other_options_are_refused_but_for_the_steps(tmp_path: Path) -> None:
     with pytest.raises(UsageError, match="other options"):
         train(InMemory(), None, tmp_path, TINY, replace(QUICK, batch=4))
     with pytest.raises(UsageError, match="other options"):
-        train(InMemory(), None, tmp_path, replace(TINY, smoothing=2), QUICK)
+        train(InMemory(), None, tmp_path, replace(TINY, smoothing=5), QUICK)
 
 
 def test_validation_reconstructs_and_keeps_the_best(tmp_path: Path) -> None:
@@ -88,7 +88,8 @@ def test_validation_reconstructs_and_keeps_the_best(tmp_path: Path) -> None:
     best = Checkpoint.read(tmp_path / "best.pt")
     assert best.best == last["validation_score"]
     sample = validation.read("torus")
-    assert validate(best.build(), [sample], 200)["score"] == best.best
+    # Training had one thread, which sums in another order.
+    assert validate(best.build(), [sample], 200)["score"] == pytest.approx(best.best, rel=1e-3)
     assert np.isfinite(predict_psi(best.build(), sample.points, sample.normals)).all()
 
 
