@@ -34,7 +34,7 @@ def main(out: Path, vertices: int = 1_000) -> None:
 
     # Coordinates in R^8, where the curvature metric is Euclidean: the first three are the points'.
     coordinates = embed_surface(surface, vertices, EmbeddingOptions()).coordinates
-    bases = tangent_bases(coordinates, surface.neighbors)
+    bases = tangent_bases(coordinates, surface.normals, surface.neighbors)
     stretch = np.ptp(coordinates, axis=0)
     print(f"extent in R^3: {stretch[:3].round(2)}, in the five dimensions added: {stretch[3:].round(2)}")
 

@@ -12,22 +12,58 @@ CELL_NEIGHBORS = 40
 """Nearest particles whose bisectors cut a cell: enough for disks of up to two mean distances."""
 
 
+PLANE_NEIGHBORS = 6
+"""Nearest particles that a particle's plane goes through: those that its cell meets, in an even spread."""
+
+SPARSE_NEIGHBOR = 2
+"""Index of the neighbour whose distance widens a disk where it is beyond the mean spacing: the third, which particles
+at a border have, too."""
+
+
+MAX_SLOPE = 0.85
+"""Sine of the steepest way to them from the cloud's plane there: what is steeper lies on another sheet."""
+
+
 def restricted_cells(
     coordinates: NDArray[np.float64], bases: NDArray[np.float64], disk_radius: float
-) -> tuple[_core.Candidates, float]:
-    """Return the triangles dual to the cells' corners with the cells' areas, and the disks' radius in R^d.
+) -> tuple[_core.Candidates, NDArray[np.float64]]:
+    """Return the triangles dual to the cells' corners with the cells' areas, and the disks' radii (m,) in R^d.
+
+    Disks lie in the planes of the particles themselves, not of the cloud (paper, section 3.3): where the surface
+    bends within a cell, as on thin struts, those of neighbours agree better, and so do their cells. Where the points
+    are too few for the stretch of the embedding, particles lie farther apart than on average; there the disks are
+    wider, or they would not meet.
 
     Parameters
     ----------
     coordinates
         (m, d) float64.
     bases
-        (m, 2, d) float64, orthonormal.
+        (m, 2, d) float64, orthonormal: the cloud's tangent planes at the particles.
     disk_radius
         In mean distances of the particles to their nearest neighbours.
     """
     neighbors = _core.nearest_neighbors(coordinates, CELL_NEIGHBORS)
-    radius = disk_radius * float(np.linalg.norm(coordinates[neighbors[:, 0]] - coordinates, axis=1).mean())
-    flat_bases = bases.reshape(len(coordinates), -1)
-    radii = np.full(len(coordinates), radius)
-    return _core.restricted_voronoi_candidates(coordinates, flat_bases, neighbors, radii), radius
+    offsets = coordinates[neighbors[:, :PLANE_NEIGHBORS]] - coordinates[:, None]
+    distances = np.linalg.norm(offsets, axis=2)
+    radii = disk_radius * np.maximum(distances[:, 0].mean(), distances[:, SPARSE_NEIGHBOR])
+    flat_bases = _planes(offsets, distances, bases).reshape(len(coordinates), -1)
+    return _core.restricted_voronoi_candidates(coordinates, flat_bases, neighbors, radii), radii
+
+
+def _planes(
+    offsets: NDArray[np.float64], distances: NDArray[np.float64], bases: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """Return orthonormal bases (m, 2, d) of the planes of the `offsets` (m, k, d) to the neighbours, by PCA.
+
+    Weights fall with the distance, so that a seventh neighbour as near as the sixth makes little difference; the
+    cloud's own planes, `bases` (m, 2, d), have next to none, and stand in where no neighbour is of the same sheet.
+    """
+    squared = distances**2
+    in_plane = np.einsum("mbi,mki->mkb", bases, offsets)
+    same_sheet = (in_plane**2).sum(axis=2) >= (1 - MAX_SLOPE**2) * squared
+    weights = np.exp(-squared / squared.mean(axis=1, keepdims=True)) * same_sheet
+    covariances = np.einsum("mk,mki,mkj->mij", weights, offsets, offsets)
+    covariances += 1e-3 * squared.mean() * np.einsum("mbi,mbj->mij", bases, bases)
+    vectors = np.linalg.eigh(covariances).eigenvectors
+    return np.ascontiguousarray(vectors[:, :, -2:].swapaxes(1, 2))

@@ -9,9 +9,10 @@ import numpy as np
 
 from hdpea import _core
 from hdpea.errors import core_errors_translated
-from hdpea.estimates import PEAK_BYTES, SECONDS
+from hdpea.estimates import PEAK_BYTES, seconds_of_run
 from hdpea.normals import ORIENTATION_NEIGHBORS
 from hdpea.options import MeshingOptions
+from hdpea.orientation import TRUSTED_CONSISTENCY
 from hdpea.reading import PointCloud
 
 
@@ -21,8 +22,8 @@ class CloudFacts:
 
     ``spacing`` is the median distance to the nearest other point. ``normal_agreement`` is the share
     of neighbouring points whose normals point to the same side, by which a run decides whether to
-    orient them anew. Both are None where there is nothing to compare. The estimates are for the
-    default number of vertices.
+    orient them anew, which takes time. Both are None where there is nothing to compare. The estimates
+    are for the default number of vertices.
     """
 
     format: str
@@ -44,6 +45,7 @@ def inspect(cloud: PointCloud) -> CloudFacts:
     low, high = cloud.points.min(axis=0), cloud.points.max(axis=0)
     vertices = MeshingOptions().vertices_of(len(cloud.points))
     spacing, agreement = _compare_neighbors(cloud) if len(cloud.points) > 1 else (None, None)
+    oriented = agreement is not None and agreement >= TRUSTED_CONSISTENCY
     return CloudFacts(
         format=cloud.format,
         counts=cloud.counts(),
@@ -54,7 +56,7 @@ def inspect(cloud: PointCloud) -> CloudFacts:
         spacing=spacing,
         normal_agreement=agreement,
         default_vertices=vertices,
-        estimated_seconds=SECONDS.of(len(cloud.points), vertices),
+        estimated_seconds=seconds_of_run(len(cloud.points), vertices, oriented),
         estimated_peak_bytes=PEAK_BYTES.of(len(cloud.points), vertices),
         notes=list(cloud.notes),
     )

@@ -17,12 +17,13 @@ from hdpea.options import MeshingOptions
 from hdpea.particles import Particles
 from hdpea.report import Choice
 from hdpea.surface import Surface
+from hdpea.triangles import mesh_area
 
 DISK_RADIUS = 1.8
 """Radius of the disks in mean distances of the particles in R^d."""
 
 MAX_CIRCUMRADIUS = 1.2
-"""Largest circumradius of a face in R^d, in disk radii."""
+"""Largest circumradius of a face in R^d, in radii of the largest disk."""
 
 HOLES_FILLED = 4.0
 """Size of the largest hole that is filled unasked, in spacings of the vertices in R^3."""
@@ -58,7 +59,7 @@ def extract_mesh(
     Parameters
     ----------
     bases
-        (n, 2, d) tangent bases of the cloud; a particle takes that of its nearest point.
+        (n, 2, d) tangent bases of the cloud.
     surface
         Where the normals come from.
 
@@ -70,11 +71,12 @@ def extract_mesh(
     options = options or MeshingOptions()
     with core_errors_translated():
         normals = np.ascontiguousarray(surface.normals[particles.nearest])
-        candidates, radius = restricted_cells(particles.coordinates, bases[particles.nearest], DISK_RADIUS)
-        why = f"{DISK_RADIUS:g} mean distances of the vertices in the embedding"
-        disks = Choice("disk_radius", radius * surface.frame.diagonal, "world units under the metric", why)
+        candidates, radii = restricted_cells(particles.coordinates, bases[particles.nearest], DISK_RADIUS)
+        why = f"{DISK_RADIUS:g} mean distances of the vertices in the embedding; more where they are sparse"
+        smallest = float(radii.min()) * surface.frame.diagonal
+        disks = Choice("disk_radius", smallest, "world units under the metric", why)
         limits = _core.ExtractionOptions()
-        limits.max_circumradius = MAX_CIRCUMRADIUS * radius
+        limits.max_circumradius = MAX_CIRCUMRADIUS * float(radii.max())
         limits.min_component_faces = options.min_component
         extracted = _core.extract_manifold(particles.coordinates, normals, candidates, limits)
         if len(extracted.faces) == 0:
@@ -95,7 +97,7 @@ def _fill_holes(
     elif options.fill_holes is not None:
         size = frame.length_to_unit(options.fill_holes)
     else:
-        size = HOLES_FILLED * float(np.sqrt(_area(vertices, extracted.faces) / len(vertices)))
+        size = HOLES_FILLED * float(np.sqrt(mesh_area(vertices, extracted.faces) / len(vertices)))
         why = f"{HOLES_FILLED:g} spacings of the vertices"
         choices = (Choice("fill_holes", size * frame.diagonal, "world units", why),)
     filled = _core.fill_holes(vertices, extracted.faces, size)
@@ -105,8 +107,3 @@ def _fill_holes(
     statistics["holes_filled"] = filled.filled
     statistics["holes_left"] = filled.left
     return Mesh(filled.vertices, filled.faces, statistics, choices)
-
-
-def _area(vertices: NDArray[np.float64], faces: NDArray[np.int64]) -> float:
-    a, b, c = (vertices[faces[:, corner]] for corner in range(3))
-    return float(np.linalg.norm(np.cross(b - a, c - a), axis=1).sum() / 2)

@@ -12,12 +12,10 @@ from hdpea import _core
 from hdpea.errors import UnreadableInput, core_errors_translated
 from hdpea.frame import UnitFrame
 from hdpea.options import NormalOptions
-from hdpea.progress import ProgressCallback, tell
+from hdpea.orientation import Unoriented, Vectors, orient, require_signs
+from hdpea.progress import ProgressCallback, of_phase, tell
 from hdpea.report import Choice
 from hdpea.surface import NEIGHBORS, Surface, require_surface
-
-TRUSTED_CONSISTENCY = 0.9
-"""Share of neighbours in agreement from which the file's orientation is taken as it is; random signs have 0.5."""
 
 ORIENTATION_NEIGHBORS = 16
 """Nearest points to which a point hands on its orientation, and fewest that an estimated normal is fitted to."""
@@ -34,7 +32,7 @@ class OrientedSurface:
     consistency
         Share of neighbours whose given normals agreed in orientation; None without given normals.
     reoriented
-        Whether the orientation was made anew.
+        Whether the orientation was made anew, whatever the given normals say.
     choices
         What was chosen automatically.
     """
@@ -52,11 +50,13 @@ def oriented_surface(
     options: NormalOptions | None = None,
     points_per_vertex: float = 8.0,
     progress: ProgressCallback | None = None,
+    sensors_in_world: NDArray[np.float64] | None = None,
 ) -> OrientedSurface:
     """Move a cloud to its unit frame and give it consistently oriented normals.
 
     Given normals keep their directions; their signs are kept only if neighbours agree about them, so a
-    cloud whose normals point both ways gives the same surface as one that is well oriented.
+    cloud whose normals point both ways gives the same surface as one that is well oriented. The option
+    `orient` has it otherwise.
 
     Parameters
     ----------
@@ -67,13 +67,17 @@ def oriented_surface(
     points_per_vertex
         Points for each vertex that the mesh will have: with more, normals are fitted to more neighbours, so
         that noise averages out in a redundant cloud.
+    sensors_in_world
+        (n, 3) float64, from where each point was seen; needed only to orient by viewpoint.
 
     Raises
     ------
     CannotReconstruct
         If the points are too few, equal or on a line.
     UnreadableInput
-        If the file's normals are insisted on and some are unusable.
+        If the file's normals, or their signs, are insisted on and unusable.
+    UsageError
+        If normals are to be turned to a viewpoint and there is none.
     """
     options = options or NormalOptions()
     given = np.zeros_like(points_in_world) if normals is None else normals
@@ -82,48 +86,48 @@ def oriented_surface(
         raise UnreadableInput(
             f"{int((~usable).sum())} points have no usable normal.", "Use --normals auto to estimate those."
         )
+    require_signs(given, sensors_in_world, options)
     if options.normals == "estimate":
         usable[:] = False
     frame = UnitFrame.around(points_in_world)
     points = frame.to_unit(points_in_world)
     require_surface(points)
     tell(progress, "normals", 0)
-    choices: tuple[Choice, ...] = ()
     with core_errors_translated():
         neighbors = _core.nearest_neighbors(points, NEIGHBORS)
         nearest = np.ascontiguousarray(neighbors[:, :ORIENTATION_NEIGHBORS])
-        directions = given.copy()
-        if not usable.all():
-            count = options.normal_neighbors
-            if count is None:
-                count = min(max(ORIENTATION_NEIGHBORS, round(2 * points_per_vertex)), NEIGHBORS)
-                why = f"twice the points per vertex, from {ORIENTATION_NEIGHBORS} to {NEIGHBORS}"
-                choices = (Choice("normal_neighbors", count, "points", why),)
-            fitted = neighbors if count <= NEIGHBORS else _core.nearest_neighbors(points, count)
-            estimated = _core.estimate_normals(points, np.ascontiguousarray(fitted[:, :count]))
-            directions[~usable] = estimated[~usable]
-        tell(progress, "normals", 0.5)
-        # Estimated normals have no sign yet; as zeros they have no say.
-        signed = np.where(usable[:, None], directions, 0)
-        consistency = _core.orientation_consistency(points, signed, nearest) if usable.any() else None
-        trusted = consistency is not None and consistency >= TRUSTED_CONSISTENCY
-        if not (trusted and usable.all()):
-            oriented = _core.orient_normals(points, directions, nearest)
-            directions = _with_given_signs(points, oriented, directions, usable) if trusted else oriented
+        directions, choices = _directions(points, given, usable, neighbors, options, points_per_vertex)
+        # Where normals are to be estimated whatever is given, what is given has no say unless it is asked for.
+        heard = given if options.orient == "file" else np.where(usable[:, None], given, 0)
+        cloud = Unoriented(points, directions, ~usable, heard, nearest)
+        seen_from = sensors_in_world if options.viewpoint is None else options.viewpoint.as_array()
+        towards = None if seen_from is None else frame.to_unit(seen_from)
+        orientation = orient(cloud, options.orient, towards, of_phase(progress, "normals"))
+        if options.orient == "auto":
+            choices += (Choice("orient", orientation.way, "", orientation.why),)
+        consistency = cloud.consistency
     tell(progress, "normals", 1)
-    surface = Surface.of(frame, points, directions, neighbors)
-    return OrientedSurface(surface, int((~usable).sum()), consistency, not trusted, choices)
+    surface = Surface.of(frame, points, orientation.normals, neighbors)
+    return OrientedSurface(surface, int((~usable).sum()), consistency, orientation.way != "file", choices)
 
 
-def _with_given_signs(
-    points: NDArray[np.float64],
-    oriented: NDArray[np.float64],
-    directions: NDArray[np.float64],
+def _directions(
+    points: Vectors,
+    given: Vectors,
     usable: NDArray[np.bool_],
-) -> NDArray[np.float64]:
-    """Keep the usable `directions` (n, 3), and turn the `oriented` others as the nearest usable one has it."""
-    kept = np.einsum("nc,nc->n", oriented, directions)[usable] >= 0
-    nearest_usable = _core.nearest_neighbors(points[usable], points[~usable], 1)[:, 0]
-    signed = directions.copy()
-    signed[~usable] = np.where(kept[nearest_usable], 1, -1)[:, None] * oriented[~usable]
-    return signed
+    neighbors: NDArray[np.int64],
+    options: NormalOptions,
+    points_per_vertex: float,
+) -> tuple[Vectors, tuple[Choice, ...]]:
+    """Return normals (n, 3) of any sign, the `given` ones where they are `usable`, and what was chosen for them."""
+    if usable.all():
+        return given, ()
+    count = options.normal_neighbors
+    choices: tuple[Choice, ...] = ()
+    if count is None:
+        count = min(max(ORIENTATION_NEIGHBORS, round(2 * points_per_vertex)), NEIGHBORS)
+        why = f"twice the points per vertex, from {ORIENTATION_NEIGHBORS} to {NEIGHBORS}"
+        choices = (Choice("normal_neighbors", count, "points", why),)
+    fitted = neighbors if count <= NEIGHBORS else _core.nearest_neighbors(points, count)
+    estimated = _core.estimate_normals(points, np.ascontiguousarray(fitted[:, :count]))
+    return np.where(usable[:, None], given, estimated), choices

@@ -13,6 +13,7 @@ from typing import Any
 
 from hdpea.errors import UsageError
 from hdpea.lengths import Length
+from hdpea.position import Position
 
 POINTS_PER_VERTEX = 8
 """How many points share a vertex unless a number of vertices or faces is asked for."""
@@ -58,6 +59,25 @@ class NormalOptions(Checked):
         "nearest points whose plane gives an estimated normal; default: two for each point per vertex, 16 to 40",
         minimum=3,
     )
+    orient: str = option(
+        "auto",
+        "which side is out. auto: the file's normals say where neighbours agree, else wnnc or mst, by which more "
+        "neighbours agree; wnnc: by the winding number, for closed shapes; mst: from neighbour to "
+        "neighbour along a spanning tree; file: as in the file; viewpoint: towards the sensor",
+        choices=("auto", "wnnc", "mst", "file", "viewpoint"),
+    )
+    viewpoint: Position | None = option(
+        None,
+        "X,Y,Z of the sensor, in the units of the file, for --orient viewpoint; default: each point's own, "
+        "from the file's sensor_x, sensor_y and sensor_z, or array sensor",
+    )
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        if self.viewpoint is not None and self.orient != "viewpoint":
+            raise UsageError(
+                f"A viewpoint is of no use with orient {self.orient}.", "Add --orient viewpoint, or leave it out."
+            )
 
 
 @dataclass(frozen=True)

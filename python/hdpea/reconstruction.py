@@ -9,11 +9,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hdpea import _core
-from hdpea.embedding import embed_surface
+from hdpea.embedding import Embedder, embed_surface
 from hdpea.errors import HdpeaError, UsageError, core_errors_translated
 from hdpea.meshing import Mesh, extract_mesh
 from hdpea.normals import OrientedSurface, oriented_surface
 from hdpea.options import POINTS_PER_VERTEX, Options
+from hdpea.orientation import TRUSTED_CONSISTENCY
 from hdpea.particles import spread_particles
 from hdpea.progress import ProgressCallback, of_phase, tell
 from hdpea.reading.cloud import PointCloud, cleaned, from_arrays
@@ -57,6 +58,8 @@ def reconstruct(
     normals: NDArray[np.float64] | None = None,
     options: Options | None = None,
     progress: ProgressCallback | None = None,
+    sensors: NDArray[np.float64] | None = None,
+    embedder: Embedder | None = None,
 ) -> Reconstruction:
     """Make a compact anisotropic triangle mesh of a point cloud.
 
@@ -70,13 +73,20 @@ def reconstruct(
         All stages' options.
     progress
         Called with a phase of ``PHASES`` and the fraction of it done; returning False cancels.
+    sensors
+        (n, 3), from where each point was seen; needed only to orient by viewpoint.
+    embedder
+        An embedding of your own, in place of the one that the options name.
 
     Raises
     ------
     CannotReconstruct
         If the points are too few, equal, on a line, or hold no triangle.
     UsageError
-        If the arrays are not of these shapes, or more vertices are asked for than there are points.
+        If the arrays are not of these shapes, more vertices are asked for than there are points, or a viewpoint
+        is asked for and there is none.
+    UnreadableInput
+        If the given normals, or their signs, are insisted on and unusable.
     Interrupted
         If `progress` cancelled.
 
@@ -92,12 +102,14 @@ def reconstruct(
     options = options or Options()
     report = Report(options)
     with limited_threads(options.threads), core_errors_translated():
-        cloud = cleaned(from_arrays(points, normals))
+        cloud = cleaned(from_arrays(points, normals, sensors))
         with report.clock.stage("normals"):
             points_per_vertex = len(cloud.points) / options.meshing.vertices_of(len(cloud.points))
-            oriented = oriented_surface(cloud.points, cloud.normals, options.normals, points_per_vertex, progress)
+            oriented = oriented_surface(
+                cloud.points, cloud.normals, options.normals, points_per_vertex, progress, cloud.sensors()
+            )
         _tell_of_cloud(report, cloud, oriented)
-        mesh = _mesh_of(oriented.surface, report, progress)
+        mesh = _mesh_of(oriented.surface, report, progress, embedder)
         with report.clock.stage("measuring"):
             tell(progress, "measuring", 0)
             _measure(mesh, oriented.surface, report)
@@ -111,12 +123,12 @@ def _tell_of_cloud(report: Report, cloud: PointCloud, oriented: OrientedSurface)
     report.notes += cloud.notes
     if oriented.estimated > cloud.unusable_normals:
         report.notes.append(f"Normals of {oriented.estimated:,} points were estimated.")
-    if oriented.reoriented and oriented.consistency is not None:
+    if oriented.reoriented and oriented.consistency is not None and oriented.consistency < TRUSTED_CONSISTENCY:
         share = f"{oriented.consistency:.0%} of neighbours agreed"
         report.notes.append(f"The given normals point both ways ({share}); they were oriented anew.")
 
 
-def _mesh_of(surface: Surface, report: Report, progress: ProgressCallback | None) -> Mesh:
+def _mesh_of(surface: Surface, report: Report, progress: ProgressCallback | None, embedder: Embedder | None) -> Mesh:
     """Embed, spread, join and fit; spread again with another count where the budget was missed."""
     options, points = report.options, len(surface.points_in_unit)
     vertices = options.meshing.vertices_of(points)
@@ -128,8 +140,8 @@ def _mesh_of(surface: Surface, report: Report, progress: ProgressCallback | None
     if options.meshing.vertices is None and options.meshing.faces is None:
         report.choices.append(Choice("vertices", vertices, "", f"one for every {POINTS_PER_VERTEX} points"))
     with report.clock.stage("embedding"):
-        embedded = embed_surface(surface, vertices, options.embedding, progress)
-        bases = tangent_bases(embedded.coordinates, surface.neighbors, points / vertices)
+        embedded = embed_surface(surface, vertices, options.embedding, progress, embedder)
+        bases = tangent_bases(embedded.coordinates, surface.normals, surface.neighbors, points / vertices)
     count = vertices
     for _ in range(ATTEMPTS):
         with report.clock.stage("particles"):

@@ -10,6 +10,7 @@ from typing import Any, TypeVar, get_args, get_type_hints
 
 from hdpea.lengths import Length
 from hdpea.options import Options
+from hdpea.position import Position
 
 Chosen = TypeVar("Chosen")
 
@@ -21,7 +22,7 @@ RUN = "run"
 class Setting:
     """One field of one options dataclass.
 
-    ``kind`` is the type of its value (int, float, bool, str or Length); ``stage`` the field of
+    ``kind`` is the type of its value (int, float, bool, str, Length or Position); ``stage`` the field of
     the options it lies in, or ``RUN``.
     """
 
@@ -81,10 +82,10 @@ def filled(owner: type[Chosen], values: Mapping[str, Any]) -> Chosen:
 
 
 def as_dict(options: object) -> dict[str, dict[str, Any]]:
-    """Return the settings by stage and name, lengths as users write them; fit for JSON."""
+    """Return the settings by stage and name, lengths and positions as users write them; fit for JSON."""
     listed: dict[str, dict[str, Any]] = {}
     for each in _all(type(options)):
         owner = options if each.stage == RUN else getattr(options, each.stage)
         value = getattr(owner, each.name)
-        listed.setdefault(each.stage, {})[each.name] = str(value) if isinstance(value, Length) else value
+        listed.setdefault(each.stage, {})[each.name] = str(value) if isinstance(value, Length | Position) else value
     return listed

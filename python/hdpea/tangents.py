@@ -17,16 +17,22 @@ PER_VERTEX = 1.5
 
 
 def tangent_bases(
-    coordinates: NDArray[np.float64], neighbors: NDArray[np.int64], points_per_vertex: float = 8.0
+    coordinates: NDArray[np.float64],
+    normals: NDArray[np.float64],
+    neighbors: NDArray[np.int64],
+    points_per_vertex: float = 8.0,
 ) -> NDArray[np.float64]:
     """Return an orthonormal basis (n, 2, d) of the tangent plane at each embedded point.
 
-    PCA of the embedded neighbours, the top two eigenvectors (paper, section 3.2).
+    The plane across the normal, and on it an affine fit of the extra coordinates. The paper (section 3.2) takes
+    PCA in R^d, which does not know the normal and loses the plane on thin parts.
 
     Parameters
     ----------
     coordinates
-        (n, d) float64.
+        (n, d) float64, the first three the positions.
+    normals
+        (n, 3) float64, unit.
     neighbors
         (n, k) int64: neighbours *in R^3*, of the same sheet, padded with -1. Neighbours in R^d
         would jump between folds (the paper's ablation).
@@ -36,4 +42,4 @@ def tangent_bases(
     count = max(TANGENT_NEIGHBORS, round(PER_VERTEX * points_per_vertex))
     nearest = np.ascontiguousarray(neighbors[:, :count])
     with core_errors_translated():
-        return _core.tangent_bases(coordinates, nearest).reshape(len(coordinates), 2, -1)
+        return _core.tangent_bases(coordinates, normals, nearest).reshape(len(coordinates), 2, -1)

@@ -6,6 +6,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from hdpea.triangles import area_vectors
+
 Vector = NDArray[np.float64]
 
 Y, Z = np.eye(3)[1:]
@@ -24,9 +26,7 @@ def choose_view(vertices: NDArray[np.float64], faces: NDArray[np.int64]) -> NDAr
     vertices, faces
         The mesh, (v, 3) and (f, 3), f > 0.
     """
-    corners = vertices[faces]
-    area_normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]) / 2
-    return _view(corners, area_normals)
+    return _view(vertices[faces], area_vectors(vertices, faces))
 
 
 def choose_view_of_points(points: NDArray[np.float64], normals: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -10,6 +10,7 @@ NB_MODULE(_core, module) {
   register_neighbors(module);
   register_embedding(module);
   register_manifold_extraction(module);
+  register_normal_orientation(module);
   register_normals(module);
   register_parallel(module);
   register_refinement(module);
@@ -17,4 +18,5 @@ NB_MODULE(_core, module) {
   register_restricted_voronoi(module);
   register_sheets(module);
   register_surface_distance(module);
+  register_wnnc(module);
 }

@@ -8,9 +8,7 @@ void register_remeshing(nb::module_& module) {
   using hdpea::TriangleMesh;
   nb::class_<RemeshingOptions>(module, "RemeshingOptions", "How a mesh is remeshed; lengths as the vertices'.")
       .def(nb::init<>())
-      .def_rw("edge_length", &RemeshingOptions::edge_length)
-      .def_rw("sharp_angle", &RemeshingOptions::sharp_angle)
-      .def_rw("iterations", &RemeshingOptions::iterations);
+      .def_rw("edge_length", &RemeshingOptions::edge_length);
   nb::class_<TriangleMesh>(module, "TriangleMesh", "Vertices and faces.")
       .def_ro("vertices", &TriangleMesh::vertices, "(n, 3) float64")
       .def_ro("faces", &TriangleMesh::faces, "(f, 3) int64");

@@ -14,8 +14,9 @@ void register_restricted_voronoi(nb::module_& module) {
              "neighbors"_a, "radii"_a, ReleaseGil(),
              "Clip a disk of radius radii (n,) in the tangent plane of every seed (n, d) by the bisectors with its "
              "neighbours (n, k).");
-  module.def("tangent_bases", &hdpea::tangent_bases, "coordinates"_a, "neighbors"_a, ReleaseGil(),
-             "Orthonormal tangent bases (n, 2 d) by PCA of each point (n, d) and its neighbours (n, k).");
+  module.def("tangent_bases", &hdpea::tangent_bases, "coordinates"_a, "normals"_a, "neighbors"_a, ReleaseGil(),
+             "Orthonormal tangent bases (n, 2 d): the plane across each normal (n, 3), and how the other coordinates "
+             "change on it.");
   module.def("tangent_bases_across", &hdpea::tangent_bases_across, "normals"_a, ReleaseGil(),
              "Orthonormal bases (n, 6) of the planes across unit normals (n, 3).");
 }

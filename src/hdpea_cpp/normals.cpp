@@ -1,142 +1,139 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hdpea_cpp/normals.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <tuple>
 #include <vector>
 
 #include "hdpea_cpp/errors.hpp"
 #include "hdpea_cpp/parallel.hpp"
-#include "hdpea_cpp/signed_sets.hpp"
 
 namespace hdpea {
 namespace {
 
-/// The direction of least variance of the neighbours, each weighted by weigh(offset).
-template <class Weigh>
-Eigen::Vector3d least_direction(const PointsRef& points, const NeighborsRef& neighbors, Index i, Weigh weigh) {
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  double total = 1;  // the point itself
-  for (Index j : neighbors.row(i)) {
-    if (j < 0) continue;
-    const Eigen::Vector3d offset = (points.row(j) - points.row(i)).transpose();
-    const double weight = weigh(offset);
-    covariance += weight * offset * offset.transpose();
-    sum += weight * offset;
-    total += weight;
-  }
-  covariance -= sum * sum.transpose() / total;
-  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(covariance).eigenvectors().col(0);
-}
+using Vector = Eigen::RowVector3d;
 
-/// n_i . n_j after n_i is carried along the arc from p_i to p_j.
-double carried_cosine(const PointsRef& points, const PointsRef& normals, Index i, Index j) {
-  const Eigen::RowVector3d edge = (points.row(j) - points.row(i)).stableNormalized();
-  const Eigen::RowVector3d normal = normals.row(i);
-  return (normal - 2 * normal.dot(edge) * edge).dot(normals.row(j));
-}
+/// A smaller patch straddles a crease less often; the last fit uses all neighbours again.
+constexpr double patch_share = 0.625;
+constexpr int rounds = 3;
+/// A neighbour's plane must fit by this factor better, in squared distance, before a point gives up its own.
+constexpr double own_advantage = 0.25;
+/// Cosine of the angle below which another plane is no other plane: 10 degrees.
+constexpr double same_plane = 0.985;
+/// Exact planes have no residual: neighbours count as on the plane within this share of the patch's radius.
+constexpr double least_residual = 0.02;
 
-struct Edge {
-  double cost;
-  Index i, j;
-  bool operator<(const Edge& other) const { return std::tie(cost, i, j) < std::tie(other.cost, other.i, other.j); }
+struct Plane {
+  Vector center, normal;
+  /// Mean squared distance from the plane, and along its widest direction.
+  double residual, extent;
 };
 
-std::vector<Edge> sorted_edges(const PointsRef& points, const PointsRef& normals, const NeighborsRef& neighbors) {
-  std::vector<Edge> edges;
-  for (Index i = 0; i < neighbors.rows(); ++i) {
-    for (Index j : neighbors.row(i)) {
-      if (j >= 0)
-        edges.push_back({1 - std::abs(carried_cosine(points, normals, i, j)), std::min(i, j), std::max(i, j)});
-    }
-  }
-  std::sort(edges.begin(), edges.end());
-  return edges;
-}
+class Estimation {
+ public:
+  Estimation(const PointsRef& points, const NeighborsRef& neighbors)
+      : points_(points), neighbors_(neighbors), planes_(points.rows()) {}
 
-/// Whether each piece (by its representative) faces inwards at its extreme points along 13 axes.
-std::vector<char> face_inwards(const PointsRef& points, const Points& normals, const std::vector<Index>& piece) {
-  std::vector<double> outward(piece.size(), 0);
-  std::vector<double> highest(piece.size()), at_highest(piece.size());
-  for (int code = 0; code < 27; ++code) {
-    if (code == 13) continue;  // no direction
-    const Eigen::RowVector3d axis = Eigen::RowVector3d(code % 3 - 1, code / 3 % 3 - 1, code / 9 - 1).normalized();
-    std::fill(highest.begin(), highest.end(), -std::numeric_limits<double>::infinity());
-    for (Index i = 0; i < points.rows(); ++i) {
-      const double height = points.row(i).dot(axis);
-      if (height <= highest[piece[i]]) continue;
-      highest[piece[i]] = height;
-      at_highest[piece[i]] = normals.row(i).dot(axis);
-    }
-    for (std::size_t root = 0; root < piece.size(); ++root) {
-      if (piece[root] == static_cast<Index>(root)) outward[root] += at_highest[root];
-    }
+  Points run() {
+    const Index patch = std::max<Index>(std::min<Index>(6, neighbors_.cols()),
+                                        std::lround(patch_share * static_cast<double>(neighbors_.cols())));
+    replace_all([&](Index i) { return fit(i, patch, [](Index) { return 1.0; }); });
+    const double tolerance = agreement_tolerance();
+    for (int round = 0; round < rounds; ++round) replace_all([&](Index i) { return flattest(i); });
+    replace_all([&](Index i) {
+      return fit(i, neighbors_.cols(), [&](Index j) {
+        return std::exp((std::abs(planes_[i].normal.dot(planes_[j].normal)) - 1) / tolerance);
+      });
+    });
+    Points normals(points_.rows(), 3);
+    for (Index i = 0; i < points_.rows(); ++i) normals.row(i) = planes_[i].normal;
+    return normals;
   }
-  std::vector<char> inwards(piece.size());
-  for (std::size_t root = 0; root < piece.size(); ++root) inwards[root] = outward[root] < 0;
-  return inwards;
-}
+
+ private:
+  /// All from the state before, so that no plane depends on the order of the loop.
+  template <class NewPlane>
+  void replace_all(NewPlane&& new_plane) {
+    std::vector<Plane> replaced(planes_.size());
+    parallel_for(points_.rows(), [&](Index i) { replaced[i] = new_plane(i); });
+    planes_ = std::move(replaced);
+  }
+
+  /// The weighted plane of a point (of weight 1) and its first `count` neighbours.
+  template <class Weight>
+  Plane fit(Index i, Index count, Weight&& weight) const {
+    double sum = 1;
+    Vector mean = Vector::Zero();
+    Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
+    for (Index c = 0; c < count; ++c) {
+      const Index j = neighbors_(i, c);
+      if (j < 0) continue;
+      const double w = weight(j);
+      const Vector offset = points_.row(j) - points_.row(i);
+      sum += w;
+      mean += w * offset;
+      scatter += w * offset.transpose() * offset;
+    }
+    mean /= sum;
+    return from_scatter(points_.row(i) + mean, scatter / sum - mean.transpose() * mean);
+  }
+
+  static Plane from_scatter(const Vector& center, const Eigen::Matrix3d& scatter) {
+    if (scatter.isZero(0)) return {center, Vector::UnitZ(), 0, 0};
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(scatter);
+    Vector normal = solver.eigenvectors().col(0).transpose();
+    Index largest = 0;
+    normal.cwiseAbs().maxCoeff(&largest);
+    if (normal[largest] < 0) normal = -normal;
+    return {center, normal, std::max(solver.eigenvalues()[0], 0.0), solver.eigenvalues()[2]};
+  }
+
+  /// Noise makes the normals of one plane disagree, so with noise they may. Curvature and creases do not count
+  /// as noise: they are not everywhere, hence the lower quartile.
+  double agreement_tolerance() const {
+    std::vector<double> thickness;
+    for (const Plane& plane : planes_) thickness.push_back(plane.extent > 0 ? plane.residual / plane.extent : 0);
+    const auto quartile = thickness.begin() + static_cast<std::ptrdiff_t>(thickness.size() / 4);
+    std::nth_element(thickness.begin(), quartile, thickness.end());
+    return 0.05 + 5 * *quartile;
+  }
+
+  /// The plane through point i's neighbourhood that it shares with its flattest neighbour, or its own.
+  Plane flattest(Index i) const {
+    const Plane& own = planes_[i];
+    const auto cost = [&](const Plane& plane) {
+      const double distance = plane.normal.dot(points_.row(i) - plane.center);
+      return plane.residual + distance * distance;
+    };
+    const Plane* best = &own;
+    double least = own_advantage * cost(own);
+    for (Index j : neighbors_.row(i)) {
+      if (j < 0 || cost(planes_[j]) >= least) continue;
+      best = &planes_[j];
+      least = cost(*best);
+    }
+    if (std::abs(own.normal.dot(best->normal)) > same_plane) return own;
+    const double width = 4 * std::max(best->residual, least_residual * least_residual * best->extent);
+    return fit(i, neighbors_.cols(), [&](Index j) {
+      const double distance = best->normal.dot(points_.row(j) - best->center);
+      return std::exp(-distance * distance / width);
+    });
+  }
+
+  const PointsRef& points_;
+  const NeighborsRef& neighbors_;
+  std::vector<Plane> planes_;
+};
 
 }  // namespace
 
 Points estimate_normals(const PointsRef& points, const NeighborsRef& neighbors) {
   require(points.rows() == neighbors.rows(), "points and neighbors must have one row per point");
-  Points normals(points.rows(), 3);
-  parallel_for(points.rows(), [&](Index i) {
-    const Eigen::Vector3d first = least_direction(points, neighbors, i, [](const Eigen::Vector3d&) { return 1.0; });
-    const Eigen::Vector3d second = least_direction(points, neighbors, i, [&](const Eigen::Vector3d& offset) {
-      const double slope = offset.dot(first) / std::max(offset.norm(), 1e-300);
-      return std::exp(-slope * slope / 0.04);
-    });
-    normals.row(i) = second.transpose();
-  });
-  return normals;
-}
-
-Points orient_normals(const PointsRef& points, const PointsRef& normals, const NeighborsRef& neighbors) {
-  const Index n = points.rows();
-  require(normals.rows() == n && neighbors.rows() == n, "points, normals and neighbors must have one row per point");
-  Points oriented = normals;
-  for (Index i = 0; i < n; ++i) {
-    // One sign for n and -n, whatever was given.
-    Index largest;
-    oriented.row(i).cwiseAbs().maxCoeff(&largest);
-    if (oriented(i, largest) < 0) oriented.row(i) *= -1;
-  }
-  SignedSets pieces(n);
-  for (const Edge& edge : sorted_edges(points, oriented, neighbors)) {
-    pieces.join(edge.i, edge.j, carried_cosine(points, oriented, edge.i, edge.j) < 0);
-  }
-  std::vector<Index> piece(static_cast<std::size_t>(n));
-  for (Index i = 0; i < n; ++i) {
-    const auto [root, flipped] = pieces.find(i);
-    piece[i] = root;
-    if (flipped) oriented.row(i) *= -1;
-  }
-  const std::vector<char> inwards = face_inwards(points, oriented, piece);
-  for (Index i = 0; i < n; ++i) {
-    if (inwards[piece[i]]) oriented.row(i) *= -1;
-  }
-  return oriented;
-}
-
-double orientation_consistency(const PointsRef& points, const PointsRef& normals, const NeighborsRef& neighbors) {
-  require(normals.rows() == points.rows() && neighbors.rows() == points.rows(),
-          "points, normals and neighbors must have one row per point");
-  Index agree = 0, count = 0;
-  for (Index i = 0; i < points.rows(); ++i) {
-    for (Index j : neighbors.row(i)) {
-      if (j < 0) continue;
-      const double cosine = carried_cosine(points, normals, i, j);
-      count += std::abs(cosine) > 0.8;
-      agree += cosine > 0.8;
-    }
-  }
-  return count == 0 ? 1 : static_cast<double>(agree) / static_cast<double>(count);
+  require(points.allFinite(), "a coordinate is not finite");
+  require((neighbors.array() < points.rows()).all(), "a neighbour index is out of range");
+  if (points.rows() == 0) return Points(0, 3);
+  return Estimation(points, neighbors).run();
 }
 
 }  // namespace hdpea

@@ -5,33 +5,18 @@
 
 namespace hdpea {
 
-/// Unoriented unit normals by PCA of each point's neighbours.
+/// Unit normals, without orientation, of a point cloud.
 ///
-/// A second pass weighs the neighbours by how well they lie in the first pass's plane, so that planes near
-/// a crease are not averaged across it.
+/// Planes are fitted by principal component analysis (Hoppe et al. 1992). Near a crease such a plane mixes
+/// the sides, so a point whose own plane is poor takes over that of a flatter neighbourhood it lies on
+/// (Kuwahara et al. 1976, there for images), and every normal is fitted again to the neighbours whose normals
+/// agree, the less strictly the noisier the cloud. On a clean cube the error is 0 beside the edges, where plain
+/// planes are 25 degrees off; with noise of half the spacing the result is that of plain planes.
 ///
-/// @param points     (n, 3)
-/// @param neighbors  (n, k) nearest first, -1 pads
-/// @returns (n, 3); a point without a plane of its own gets some unit vector, always the same
+/// @param points     (n, 3), finite
+/// @param neighbors  (n, k) indices into points, nearest first, -1 allowed; about 16
+/// @returns (n, 3) unit normals, the component of largest magnitude positive; (0, 0, 1) without neighbours
+/// @throws InvalidArgument if the shapes differ, an index is out of range or a coordinate is not finite
 Points estimate_normals(const PointsRef& points, const NeighborsRef& neighbors);
-
-/// Gives normals one consistent orientation; their signs on entry do not matter.
-///
-/// Kruskal's spanning forest of the neighbour graph carries the orientation from point to point. Along an
-/// edge e, a normal is reflected in the plane that bisects the edge, n - 2 (n . e) e, as it is along a circular
-/// arc between the points: that is right across a sharp crease and a thin wall alike (Koenig & Gumhold 2009).
-/// Edges go first where the reflected normal and the neighbour's are most nearly parallel. Each connected
-/// piece then faces outwards at its extreme points.
-///
-/// @param points     (n, 3)
-/// @param normals    (n, 3) unit
-/// @param neighbors  (n, k), -1 pads
-Points orient_normals(const PointsRef& points, const PointsRef& normals, const NeighborsRef& neighbors);
-
-/// Share of neighbours whose signs agree by the same criterion: 1 for oriented normals, 0.5 for random signs.
-///
-/// Pairs whose reflected normals are not nearly parallel (|cos| <= 0.8) say nothing and are left out; 1 if
-/// there are no others.
-double orientation_consistency(const PointsRef& points, const PointsRef& normals, const NeighborsRef& neighbors);
 
 }  // namespace hdpea

@@ -59,9 +59,43 @@ inline Cloud joined(const Cloud& a, const Cloud& b) {
   return cloud;
 }
 
+/// A torus of radii 1 and 0.4, even along its meridians.
+inline Cloud torus(Index n) {
+  Cloud cloud{Points(n, 3), Points(n, 3)};
+  for (Index i = 0; i < n; ++i) {
+    const double u = 2 * std::numbers::pi * weyl(i).x(), v = 2 * std::numbers::pi * weyl(i).y();
+    cloud.normals.row(i) << std::cos(v) * std::cos(u), std::cos(v) * std::sin(u), std::sin(v);
+    cloud.points.row(i) << std::cos(u), std::sin(u), 0;
+  }
+  cloud.points += 0.4 * cloud.normals;
+  return cloud;
+}
+
 inline Cloud flipped(Cloud cloud) {
   cloud.normals *= -1;
   return cloud;
+}
+
+/// The six faces of the unit cube, each sampled like a plane, with outward normals.
+inline Cloud cube(Index per_face) {
+  Cloud cube{Points(0, 3), Points(0, 3)};
+  for (int axis = 0; axis < 3; ++axis) {
+    for (double side : {0.0, 1.0}) {
+      const Cloud square = plane(per_face, side);
+      Cloud face{Points(per_face, 3), Points::Zero(per_face, 3)};
+      for (int column = 0; column < 3; ++column) face.points.col((axis + 1 + column) % 3) = square.points.col(column);
+      face.normals.col(axis).setConstant(2 * side - 1);
+      cube = joined(cube, face);
+    }
+  }
+  return cube;
+}
+
+/// 2,500 points in a unit square have a spacing of 0.02; the plate is three spacings thick and has a rim.
+inline Cloud thin_plate() {
+  Cloud plate = cube(2500);
+  plate.points.col(2) *= 0.06;
+  return plate;
 }
 
 }  // namespace hdpea::clouds

@@ -65,23 +65,5 @@ TEST(RestrictedVoronoi, SurvivesDuplicateSeeds) {
 
 TEST(RestrictedVoronoi, RefusesABadContract) { EXPECT_THROW(candidates_of(clouds::sphere(100), 0), InvalidArgument); }
 
-TEST(TangentBases, AreOrthonormalAndSpanTheTangentPlane) {
-  const auto sphere = clouds::sphere(4000);
-  const Coordinates bases = tangent_bases(sphere.points, nearest_neighbors(sphere.points, 12));
-  for (Index i = 0; i < 4000; ++i) {
-    const Eigen::RowVector3d u = bases.row(i).head<3>(), v = bases.row(i).tail<3>();
-    EXPECT_NEAR(u.norm(), 1, 1e-12);
-    EXPECT_NEAR(u.dot(v), 0, 1e-12);
-    EXPECT_GT(std::abs(u.cross(v).dot(sphere.normals.row(i))), 0.99);
-  }
-}
-
-TEST(TangentBases, AcrossNormalsArePerpendicularToThem) {
-  const auto sphere = clouds::sphere(100);
-  const Coordinates bases = tangent_bases_across(sphere.normals);
-  EXPECT_LT((bases.leftCols<3>().array() * sphere.normals.array()).rowwise().sum().abs().maxCoeff(), 1e-12);
-  EXPECT_LT((bases.rightCols<3>().array() * sphere.normals.array()).rowwise().sum().abs().maxCoeff(), 1e-12);
-}
-
 }  // namespace
 }  // namespace hdpea

@@ -34,7 +34,11 @@ class Embedding:
 
 
 def reconstruct(
-    points: Array, _normals: Array | None = None, options: Options = Options(), progress: ProgressCallback | None = None
+    points: Array,
+    _normals: Array | None = None,
+    options: Options = Options(),
+    progress: ProgressCallback | None = None,
+    _sensors: Array | None = None,
 ) -> Reconstruction:
     """Return one triangle; fail or dawdle if the seed says so."""
     tell(progress, "meshing", 0.0)
@@ -51,7 +55,11 @@ def reconstruct(
 
 
 def embed_points(
-    points: Array, _normals: Array | None = None, _: Options = Options(), progress: ProgressCallback | None = None
+    points: Array,
+    _normals: Array | None = None,
+    _: Options = Options(),
+    progress: ProgressCallback | None = None,
+    _sensors: Array | None = None,
 ) -> Embedding:
     """Return the points, padded with zeros."""
     tell(progress, "embedding", 0.0)

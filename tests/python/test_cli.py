@@ -99,6 +99,33 @@ def test_an_embedding_is_written(scan: str, tmp_path: Path, capsys: Capture) -> 
     assert "normal_neighbors: 16 points" in told
 
 
+def test_normals_are_turned_to_the_sensors_that_the_file_names(tmp_path: Path) -> None:
+    points, normals = clouds.torus(800)
+    sensors = points - 0.1 * normals  # inside
+    np.savez(tmp_path / "array.npz", points=points, sensor=sensors)
+    header = "x,y,z,sensor_x,sensor_y,sensor_z"
+    np.savetxt(tmp_path / "columns.csv", np.hstack([points, sensors]), delimiter=",", header=header, comments="")
+    for name in ("array.npz", "columns.csv"):
+        output = tmp_path / f"{name}.npz"
+        assert run(["embed", str(tmp_path / name), str(output), "--orient", "viewpoint", "--quiet"]) == 0
+        written = read_points(output).normals
+        assert written is not None
+        assert (np.einsum("nc,nc->n", written, normals) < 0).all()
+
+
+def test_normals_are_turned_to_the_viewpoint(scan: str, tmp_path: Path) -> None:
+    arguments = ["--orient", "viewpoint", "--viewpoint", "-1,-2,-3.5", "--report", str(tmp_path / "report.json")]
+    assert run(["reconstruct", scan, str(tmp_path / "mesh.ply"), "--fill-holes", "0", *arguments]) == 0
+    assert json.loads((tmp_path / "report.json").read_text())["options"]["normals"]["viewpoint"] == "-1,-2,-3.5"
+
+
+def test_signs_that_the_file_lacks_are_unreadable(tmp_path: Path, failed: Callable[..., str]) -> None:
+    np.savetxt(tmp_path / "scan.xyz", clouds.torus(800)[0])
+    assert "no usable normals" in failed(
+        3, "reconstruct", tmp_path / "scan.xyz", tmp_path / "m.obj", "--orient", "file"
+    )
+
+
 @pytest.mark.parametrize("command", ["reconstruct", "embed"])
 def test_an_output_never_takes_the_place_of_its_input(command: str, tmp_path: Path, failed: Callable[..., str]) -> None:
     (tmp_path / "scan.ply").write_bytes(WITH_NORMALS["binary.ply"])
@@ -139,6 +166,10 @@ def test_a_missing_input_is_unreadable(tmp_path: Path, failed: Callable[..., str
         (["--fill-holes", "wide"], "not a length"),
         (["--fill-holes", "-1%"], "cannot be -1"),
         (["--normals", "guess"], "'guess'"),
+        (["--orient", "guess"], "'guess'"),
+        (["--orient", "viewpoint"], "no viewpoint"),
+        (["--orient", "viewpoint", "--viewpoint", "up"], "not a position"),
+        (["--viewpoint", "1,2,3"], "of no use with orient auto"),
         (["--vertises", "9"], "--vertices"),
         (["--report", "report.txt"], ".json"),
         (["--picture", "picture.jpg"], ".png"),

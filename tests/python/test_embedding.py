@@ -121,7 +121,7 @@ def test_points_are_cleaned_and_the_frame_leads_back_to_them() -> None:
     np.testing.assert_array_equal(found.points, 1e6 + points)
     np.testing.assert_allclose(found.world_from_unit.to_world(found.coordinates[:, :3]), found.points, atol=1e-9)
     np.testing.assert_allclose(np.linalg.norm(found.normals, axis=1), 1)
-    assert {choice.name for choice in found.choices} == {"bending_length", "curvature_radius"}
+    assert {choice.name for choice in found.choices} == {"orient", "bending_length", "curvature_radius"}
 
 
 def test_threads_do_not_change_the_embedding() -> None:

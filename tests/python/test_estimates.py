@@ -5,9 +5,9 @@ from __future__ import annotations
 
 import pytest
 
-from hdpea.estimates import PEAK_BYTES, SECONDS
+from hdpea.estimates import PEAK_BYTES, SECONDS, seconds_of_run
 
-# Points, vertices, seconds of the whole command on two cores, peak memory in MB.
+# Points (with normals), vertices, seconds of the whole command on two cores, peak memory in MB.
 MEASURED = [
     (10_000, 1_250, 2.7, 255),
     (10_000, 5_000, 4.3, 288),
@@ -27,3 +27,9 @@ def test_estimates_are_within_a_third_of_what_was_measured(
 ) -> None:
     assert SECONDS.of(points, vertices) == pytest.approx(seconds, rel=0.33)
     assert PEAK_BYTES.of(points, vertices) == pytest.approx(1e6 * megabytes, rel=0.33)
+
+
+def test_a_cloud_that_must_be_oriented_takes_longer_the_larger_it_is() -> None:
+    extra = [seconds_of_run(n, 1000, oriented=False) - seconds_of_run(n, 1000, oriented=True) for n in (0, 1000, 10**5)]
+    assert extra[0] == 0
+    assert 0 < 100 * extra[1] < extra[2]

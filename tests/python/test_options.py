@@ -47,6 +47,7 @@ def test_report_shows_lengths_as_the_user_writes_them() -> None:
     [
         ("normals", "guess"),
         ("normal_neighbors", 2),
+        ("orient", "guess"),
         ("metric_scale", float("nan")),
         ("max_stretch", 0.5),
         ("vertices", 3),

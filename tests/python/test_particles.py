@@ -35,7 +35,7 @@ class Embedded:
 def embedded(shape: str, points: int = 3000) -> Embedded:
     surface = oriented_surface(*getattr(clouds, shape)(points)).surface
     coordinates = embed_surface(surface, points // 8, EmbeddingOptions()).coordinates
-    return Embedded(surface, coordinates, tangent_bases(coordinates, surface.neighbors))
+    return Embedded(surface, coordinates, tangent_bases(coordinates, surface.normals, surface.neighbors))
 
 
 def nearest_distances(x: clouds.Array) -> clouds.Array:
@@ -59,7 +59,7 @@ def test_tangent_bases_are_orthonormal_and_tangent() -> None:
     np.testing.assert_allclose(
         cloud.bases @ cloud.bases.transpose(0, 2, 1), np.tile(np.eye(2), (3000, 1, 1)), atol=1e-9
     )
-    in_space = tangent_bases(cloud.surface.points_in_unit, cloud.surface.neighbors)
+    in_space = tangent_bases(cloud.surface.points_in_unit, cloud.surface.normals, cloud.surface.neighbors)
     assert abs(in_space @ cloud.surface.normals[:, :, None]).max() < 0.2
 
 

@@ -104,8 +104,17 @@ def test_the_report_tells_everything(tmp_path: Path) -> None:
     assert told["options"]["particles"]["seed"] == 0
     assert told["counts"]["points"] == 2000
     chosen = {choice["name"]: choice for choice in told["choices"]}
-    wanted = {"vertices", "normal_neighbors", "bending_length", "curvature_radius", "disk_radius", "fill_holes"}
+    wanted = {
+        "vertices",
+        "normal_neighbors",
+        "orient",
+        "bending_length",
+        "curvature_radius",
+        "disk_radius",
+        "fill_holes",
+    }
     assert chosen.keys() == wanted
+    assert chosen.pop("orient")["value"] == "wnnc"
     for choice in chosen.values():
         assert choice["value"] > 0
         assert len(choice["why"]) > 10

@@ -62,7 +62,7 @@ def _normals(facts: CloudFacts) -> str:
         return "none usable, will be estimated" if unusable else "none, will be estimated"
     if facts.normal_agreement is None:
         return f"{usable:,} usable"
-    from hdpea.normals import TRUSTED_CONSISTENCY
+    from hdpea.orientation import TRUSTED_CONSISTENCY
 
     trusted = facts.normal_agreement >= TRUSTED_CONSISTENCY
     fate = "their orientation will be kept" if trusted else "they will be oriented anew"

@@ -11,20 +11,23 @@ from click.core import ParameterSource
 
 from hdpea.lengths import Length
 from hdpea.options import Options
+from hdpea.position import Position
 from hdpea.settings import Setting, options_from, settings
 
 Decorated = TypeVar("Decorated", bound=Callable[..., Any])
 
 
-class LengthType(click.ParamType[Length]):
-    """A length such as ``0.02`` or ``1%``."""
+class ParsedType(click.ParamType[Any]):
+    """What is given as text that its class can ``parse``: a length such as ``1%``, a position such as ``1,2,3``."""
 
-    name = "length"
+    def __init__(self, kind: type[Length] | type[Position]) -> None:
+        self.kind = kind
+        self.name = kind.__name__.lower()
 
-    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Length:
-        """Return the length; a usage error if it is none."""
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Length | Position:
+        """Return the value; a usage error if it is none."""
         try:
-            return value if isinstance(value, Length) else Length.parse(value)
+            return value if isinstance(value, self.kind) else self.kind.parse(value)
         except ValueError as error:
             self.fail(f"{error}.", param, ctx)
 
@@ -70,11 +73,16 @@ quiet_option = click.option("--quiet", cls=GroupedOption, is_flag=True, help="sa
 
 
 def setting_options(
-    *stages: str, also: Collection[str] = (), without: Collection[str] = (), owner: type[Any] = Options
+    *stages: str,
+    also: Collection[str] = (),
+    without: Collection[str] = (),
+    owner: type[Any] = Options,
+    heading: str | None = None,
 ) -> Callable[[Decorated], Decorated]:
     """Add a flag for every setting of the given stages of the options `owner`, in their order.
 
-    Settings `also` are added from whatever stage, those `without` are left out.
+    Settings `also` are added from whatever stage, those `without` are left out. The help lists them under the name
+    of their stage, or all under `heading`.
     """
     known = [each for each in settings(owner) if each.name not in without]
     chosen = [each for each in known if each.name in also]
@@ -83,19 +91,19 @@ def setting_options(
     def decorate(function: Decorated) -> Decorated:
         # Decorators work from the last to the first.
         for each in reversed(chosen):
-            function = _flag(each)(function)
+            function = _flag(each, heading or each.stage.replace("_", " ").capitalize())(function)
         return function
 
     return decorate
 
 
-def _flag(setting: Setting) -> Callable[[Decorated], Decorated]:
+def _flag(setting: Setting, group: str) -> Callable[[Decorated], Decorated]:
     flag = "--" + setting.name.replace("_", "-")
-    kinds: dict[type, Any] = {Length: LengthType(), float: ShareType()}
+    kinds: dict[type, Any] = {Length: ParsedType(Length), Position: ParsedType(Position), float: ShareType()}
     return click.option(
         f"{flag}/--no-{flag[2:]}" if setting.kind is bool else flag,
         cls=GroupedOption,
-        group=setting.stage.replace("_", " ").capitalize(),
+        group=group,
         type=click.Choice(setting.choices) if setting.choices else kinds.get(setting.kind, setting.kind),
         default=setting.default,
         show_default=setting.default is not None,

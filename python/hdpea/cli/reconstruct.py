@@ -76,7 +76,7 @@ def command(
 
             # Or the clock would not see it: the stages load it when they first need it.
             import_module("torch")
-        result = reconstruct(cloud.points, cloud.normals, options, progress)
+        result = reconstruct(cloud.points, cloud.normals, options, progress, cloud.sensors())
         result.report.begin_with(source, cloud, clock)
         tell(progress, "writing", 0.0)
         with result.report.clock.stage("writing"):

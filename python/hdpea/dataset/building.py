@@ -18,6 +18,7 @@ from hdpea.dataset.isolation import Outcome, run_isolated
 from hdpea.dataset.making import make_sample
 from hdpea.dataset.manifest import Manifest, MeshEntry, SampleEntry, write_manifest
 from hdpea.dataset.options import DatasetOptions
+from hdpea.dataset.raycasting import require_embree
 from hdpea.dataset.recorded_options import recorded_options
 from hdpea.dataset.sample_file import encoded
 from hdpea.dataset.sources import MeshSource, find_meshes
@@ -79,11 +80,14 @@ def build_dataset(
     UnreadableInput
         If there are no meshes.
     UsageError
-        If `folder` cannot be written, or holds anything but a dataset of these meshes and options.
+        If `folder` cannot be written, or holds anything but a dataset of these meshes and options; if scans are
+        asked for and embreex is not installed.
     QualityMissed
         If not one mesh could be used.
     """
     started, options = time.perf_counter(), options or DatasetOptions()
+    if options.sample.kind == "scan":
+        require_embree()  # said once, not of every mesh
     sources = find_meshes(where)
     manifest = Manifest(version(), recorded_options(options))
     finished = open_folder(folder, manifest, sources)

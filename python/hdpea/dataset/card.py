@@ -39,9 +39,11 @@ An NPZ file, arrays of float32, all in the unit frame of the mesh: centred, boun
 ## How it was made
 
 Each mesh was merged where vertices are equal, checked to be closed and manifold, and turned if it was inside out. Its
-surface was cut into near-isotropic triangles, its curvature measured, and psi solved for on these triangles, as
-isometric to the metric as the bending term lets it be. What is true of a point is interpolated between the corners of
-the triangle nearest to it.
+surface was covered anew with near-isotropic triangles, its curvature fitted to the normals of its own faces, and psi
+solved for on the new triangles, as isometric to the metric as the bending term lets it be. What is true of a point is
+interpolated between the corners of the triangle nearest to it.
+
+Lengths of the ground truth are in spacings, sqrt(area / vertices) of the surface; all others in unit length.
 
 | stage | option | value |
 |---|---|---|
@@ -61,8 +63,8 @@ A sample is derived from its mesh and is under the terms of that mesh. `manifest
 
 - The truth is that of the triangles: on a coarse mesh the curvature is that of its edges, rounded over the radius
   above, and features thinner than the length of the triangles are lost to psi.
-- Psi is not exactly isometric: a smooth map of that metric need not exist. It is unique only up to a rigid motion, and
-  depends on the surface as a whole.
+- Psi is not exactly isometric: a smooth map of that metric need not exist (`hdpea dataset info` measures how far it
+  is). It is unique only up to a rigid motion, and depends on the surface as a whole.
 - Psi, curvatures and directions are interpolated linearly. Where both curvatures are alike the direction is
   arbitrary, and its sign always is.
 - Normals are those of the faces, so they jump across every edge of a coarse mesh.

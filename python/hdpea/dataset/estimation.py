@@ -9,14 +9,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hdpea.normals import oriented_surface
+from hdpea.options import NormalOptions
+
+ORIENTATION = NormalOptions(orient="wnnc")
+"""By the winding number: samples are of closed surfaces, and it stands noise (paper, section 4.1)."""
 
 
 def estimated_normals(points: NDArray[np.floating[Any]]) -> NDArray[np.float32]:
-    """Return unit normals (n, 3) float32 of points (n, 3), estimated and oriented as ``hdpea reconstruct`` would.
+    """Return unit normals (n, 3) float32 of points (n, 3), estimated and oriented by the winding number.
 
     Raises
     ------
     CannotReconstruct
         If the points are too few, equal or on a line.
     """
-    return oriented_surface(points.astype(np.float64)).surface.normals.astype(np.float32)
+    return oriented_surface(points.astype(np.float64), options=ORIENTATION).surface.normals.astype(np.float32)

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hdpea.dataset.options import GroundTruthOptions
+from hdpea.dataset.quality import isometry_errors, roughness, spacing_of, stretches
 from hdpea.dataset.sample import Sample
 
 PERCENTILES = (0, 5, 50, 95, 100)
@@ -25,22 +26,19 @@ class SampleFacts:
 
 def sample_facts(sample: Sample, options: GroundTruthOptions) -> SampleFacts:
     """Return the facts of a sample whose metric is that of `options`."""
-    stretch = stretches(sample.curvatures, options)
+    spacing = spacing_of(sample, options)
+    stretch = stretches(sample.curvatures, options, spacing)
     ranges = {
         "k1": sample.curvatures[:, 0],
         "k2": sample.curvatures[:, 1],
         "stretch along k1": stretch[:, 0],
         "stretch along k2": stretch[:, 1],
         "ratio of the stretches": stretch[:, 0] / stretch[:, 1],
+        "isometry error": isometry_errors(sample, options, spacing),
+        "roughness": roughness(sample),
         "distance to the surface": np.linalg.norm(sample.points - sample.surface_points, axis=1),
     }
     optional = tuple(name for name in ("estimated_normals", "sensors") if getattr(sample, name) is not None)
     return SampleFacts(
         len(sample.points), optional, {name: np.percentile(values, PERCENTILES) for name, values in ranges.items()}
     )
-
-
-def stretches(curvatures: NDArray[np.float32], options: GroundTruthOptions) -> NDArray[np.float64]:
-    """Return how much the metric stretches along the principal directions (n, 2): sqrt(clamp(c |k|, 1, s_max^2))."""
-    scaled = options.metric_scale * abs(curvatures.astype(np.float64))
-    return np.sqrt(np.clip(scaled, 1, options.max_stretch**2))

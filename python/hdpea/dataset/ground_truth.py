@@ -8,9 +8,22 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from hdpea.dataset.options import GroundTruthOptions
+from hdpea import _core
+from hdpea.dataset.options import GroundTruthOptions, SamplingOptions
+from hdpea.dataset.sampling import sample_surface
+from hdpea.errors import CannotReconstruct, core_errors_translated
 from hdpea.frame import UnitFrame
-from hdpea.progress import ProgressCallback
+from hdpea.progress import ProgressCallback, of_phase, tell
+from hdpea.triangles import area_vectors, mesh_area
+
+CURVATURE_SAMPLES = 100_000
+"""Points of the surface whose normals curvature is fitted to."""
+
+CURVATURE_NEIGHBORS = 100
+"""Nearest of them looked at around each vertex: all of one sheet within the radius."""
+
+LEAST_AREA = 1e-9
+"""Of a surface, in the unit frame: less is a line and its rounding, which edges of no length would have to cover."""
 
 
 @dataclass(frozen=True)
@@ -47,8 +60,31 @@ class EmbeddedMesh:
     frame: UnitFrame
 
     def at(self, points_in_unit: NDArray[np.float64]) -> PointTruth:
-        """Return what is true at the points of the surface nearest to `points_in_unit` (n, 3), by barycentric weights."""
-        raise NotImplementedError
+        """Return what is true at the points of the surface nearest to `points_in_unit` (n, 3).
+
+        Everything is interpolated with the barycentric weights of the nearest point (paper, section 3.1);
+        curvature as the shape operator, a tensor, since directions have no sign to interpolate.
+        """
+        with core_errors_translated():
+            nearest = _core.closest_surface_points(self.vertices, self.faces, points_in_unit)
+        corners, weights = self.faces[nearest.face], nearest.barycentric
+        shape_operators = np.einsum("nc,ncij->nij", weights, self._shape_operators()[corners])
+        curvatures, direction1 = principal_curvatures(shape_operators)
+        return PointTruth(np.einsum("nc,nci->ni", weights, self.psi[corners]), curvatures, direction1)
+
+    def _shape_operators(self) -> NDArray[np.float64]:
+        directions = np.stack([self.direction1, np.cross(self.normals, self.direction1)], axis=1)
+        return np.asarray(np.einsum("nd,ndi,ndj->nij", self.curvatures, directions, directions))
+
+
+def principal_curvatures(
+    shape_operators: NDArray[np.float64],
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Return k1, k2 (n, 2), |k1| >= |k2|, and the direction of k1 (n, 3) of symmetric tensors (n, 3, 3) of R^3."""
+    values, vectors = np.linalg.eigh(shape_operators)
+    order = np.argsort(-np.abs(values), axis=1, kind="stable")
+    direction1 = np.take_along_axis(vectors, order[:, None, :1], axis=2)[:, :, 0]
+    return np.take_along_axis(values, order[:, :2], axis=1), direction1
 
 
 def embed_mesh(
@@ -57,5 +93,66 @@ def embed_mesh(
     options: GroundTruthOptions | None = None,
     progress: ProgressCallback | None = None,
 ) -> EmbeddedMesh:
-    """Embed a closed, manifold triangle mesh (v, 3), (f, 3) in R^8."""
-    raise NotImplementedError
+    """Embed an edge-manifold, oriented triangle mesh (v, 3), (f, 3), closed or with borders, in R^8.
+
+    The mesh is remeshed, since a solver needs better triangles than CAD gives; curvature is fitted, at a
+    fixed length, to the normals of the *given* mesh. Lengths scale with the area (``GroundTruthOptions``).
+
+    Raises
+    ------
+    UsageError
+        If the mesh is not edge-manifold and oriented.
+    CannotReconstruct
+        If it has no extent, or no area.
+    """
+    options = options or GroundTruthOptions()
+    frame = UnitFrame.around(vertices_in_world)
+    given = frame.to_unit(vertices_in_world)
+    total = mesh_area(given, faces)
+    if total < LEAST_AREA:
+        raise CannotReconstruct("The mesh has no area.", "Its faces are degenerate.")
+    spacing = float(np.sqrt(total / options.vertices))
+    remeshing, solver = _core.RemeshingOptions(), _core.EmbeddingOptions()
+    remeshing.edge_length = options.remesh_length * spacing
+    solver.bending_length = options.bending_length * spacing
+    solver.metric_scale = options.metric_scale * spacing
+    solver.max_stretch = options.max_stretch
+    with core_errors_translated():
+        tell(progress, "remeshing", 0)
+        mesh = _core.remesh_isotropically(given, faces, remeshing)
+        normals = vertex_normals(mesh.vertices, mesh.faces)
+        tell(progress, "curvature", 0)
+        curvature = _curvature_at(mesh.vertices, normals, given, faces, options.curvature_radius * spacing)
+        whole = np.ones(len(mesh.faces))
+        phase = of_phase(progress, "embedding")
+        psi = _core.solve_embedding(mesh.vertices, normals, curvature, mesh.faces, whole, solver, phase)
+    return EmbeddedMesh(mesh.vertices, mesh.faces, normals, psi, curvature.principal, curvature.direction1, frame)
+
+
+def _curvature_at(
+    vertices: NDArray[np.float64],
+    normals: NDArray[np.float64],
+    given: NDArray[np.float64],
+    faces: NDArray[np.int64],
+    radius: float,
+) -> _core.Curvature:
+    """Fit the curvature at `vertices` to samples of the given mesh, whose normals are true ones."""
+    samples = sample_surface(given, faces, SamplingOptions(points=CURVATURE_SAMPLES))
+    points = np.vstack([vertices, samples.points])
+    all_normals = np.vstack([normals, samples.normals])
+    nearest = len(vertices) + _core.nearest_neighbors(samples.points, vertices, CURVATURE_NEIGHBORS)
+    of_samples = np.full((len(samples.points), CURVATURE_NEIGHBORS), -1)
+    sheets = _core.sheet_neighbors(points, all_normals, np.vstack([nearest, of_samples]))
+    curvature = _core.estimate_curvature(points, all_normals, sheets, radius)
+    curvature.principal = curvature.principal[: len(vertices)]
+    curvature.direction1 = curvature.direction1[: len(vertices)]
+    return curvature
+
+
+def vertex_normals(vertices: NDArray[np.float64], faces: NDArray[np.int64]) -> NDArray[np.float64]:
+    """Return unit normals (v, 3) of a mesh's vertices, the mean of their faces' by area."""
+    sums, by_area = np.zeros_like(vertices), area_vectors(vertices, faces)
+    for corner in range(3):
+        np.add.at(sums, faces[:, corner], by_area)
+    lengths = np.linalg.norm(sums, axis=1, keepdims=True)
+    return np.where(lengths > 0, sums / np.where(lengths > 0, lengths, 1), np.eye(3)[2])

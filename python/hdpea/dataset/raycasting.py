@@ -29,6 +29,18 @@ class Hits:
     barycentric: NDArray[np.float64]
 
 
+def require_embree() -> None:
+    """Refuse to cast rays where nothing can.
+
+    Raises
+    ------
+    UsageError
+        If embreex is not installed.
+    """
+    if find_spec("embreex") is None:
+        raise UsageError("Cannot scan: embreex is not installed.", "pip install 'hdpea[dataset]'")
+
+
 class RayCaster:
     """A mesh (v, 3), (f, 3) in its unit frame, to cast rays at; Embree computes in float32.
 
@@ -39,8 +51,7 @@ class RayCaster:
     """
 
     def __init__(self, vertices: NDArray[np.float64], faces: NDArray[np.int64]) -> None:
-        if find_spec("embreex") is None:
-            raise UsageError("Cannot scan: embreex is not installed.", "pip install 'hdpea[dataset]'")
+        require_embree()
         from embreex.mesh_construction import TriangleMesh
         from embreex.rtcore_scene import EmbreeScene
 

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from hdpea import _core
 from hdpea.dataset.options import SamplingOptions
 from hdpea.errors import CannotReconstruct, core_errors_translated
+from hdpea.triangles import area_vectors
 
 OVERSAMPLING = 4
 """Points by area for every point that farthest-point sampling keeps: 2 leave the spacing less even."""
@@ -63,10 +64,9 @@ def face_normals(
     vertices: NDArray[np.float64], faces: NDArray[np.int64]
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Return the unit normals (f, 3) of the faces, zero for those without area, and their areas (f,)."""
-    a, b, c = vertices[faces].transpose(1, 0, 2)
-    normals = np.cross(b - a, c - a)
-    doubled = np.linalg.norm(normals, axis=1)
-    return normals / np.where(doubled > 0, doubled, 1)[:, None], doubled / 2
+    normals = area_vectors(vertices, faces)
+    areas = np.linalg.norm(normals, axis=1)
+    return normals / np.where(areas > 0, areas, 1)[:, None], areas
 
 
 def points_at(

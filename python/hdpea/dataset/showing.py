@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from hdpea.dataset.facts import stretches
 from hdpea.dataset.options import GroundTruthOptions
+from hdpea.dataset.quality import spacing_of, stretches
 from hdpea.dataset.sample import Sample
 from hdpea.outputs import check_output, replacing
 from hdpea.picture import MARGIN, PICTURE_FORMATS, check_drawing, load_pyvista
@@ -50,7 +50,8 @@ def draw_sample(path: Path, sample: Sample, options: GroundTruthOptions | None =
     view_from_unit = choose_view_of_points(sample.points.astype(np.float64), sample.normals.astype(np.float64))
     points = sample.points @ view_from_unit.T
     facing = (sample.normals @ view_from_unit.T)[:, 2] > 0
-    stretch = stretches(sample.curvatures, options or GroundTruthOptions())
+    options = options or GroundTruthOptions()
+    stretch = stretches(sample.curvatures, options, spacing_of(sample, options))
     ratio = stretch[:, 0] / stretch[:, 1]
     panels = [normal_colors(sample.normals), psi_colors(sample.psi), ratio_colors(ratio)]
 

@@ -56,11 +56,19 @@ class Embedding:
 
 
 def embed_surface(
-    surface: Surface, vertices: int, options: EmbeddingOptions, progress: ProgressCallback | None = None
+    surface: Surface,
+    vertices: int,
+    options: EmbeddingOptions,
+    progress: ProgressCallback | None = None,
+    embedder: Embedder | None = None,
 ) -> Embedded:
-    """Embed an oriented surface at the scale that a mesh of so many `vertices` can show."""
+    """Embed an oriented surface at the scale that a mesh of so many `vertices` can show.
+
+    `embedder` takes the place of the one that the options name.
+    """
+    embedder = embedder or EMBEDDERS[options.embedding]
     with core_errors_translated():
-        return EMBEDDERS[options.embedding](surface, vertices, options, of_phase(progress, "embedding"))
+        return embedder(surface, vertices, options, of_phase(progress, "embedding"))
 
 
 def embed_points(
@@ -68,6 +76,7 @@ def embed_points(
     normals: NDArray[np.float64] | None = None,
     options: Options | None = None,
     progress: ProgressCallback | None = None,
+    sensors: NDArray[np.float64] | None = None,
 ) -> Embedding:
     """Embed a cloud in R^8.
 
@@ -77,20 +86,24 @@ def embed_points(
         (n, 3) in world units; what is not finite or occurs twice is dropped.
     normals
         (n, 3), of any length and sign; estimated where missing.
+    sensors
+        (n, 3), from where each point was seen; needed only to orient by viewpoint.
 
     Raises
     ------
     CannotReconstruct
         If the points are too few, equal or on a line.
     UsageError
-        If the arrays are not of these shapes.
+        If the arrays are not of these shapes, or a viewpoint is asked for and there is none.
+    UnreadableInput
+        If the given normals, or their signs, are insisted on and unusable.
     """
     options = options or Options()
     with limited_threads(options.threads):
-        cloud = cleaned(from_arrays(points, normals))
+        cloud = cleaned(from_arrays(points, normals, sensors))
         vertices = options.meshing.vertices_of(len(cloud.points))
         per_vertex = len(cloud.points) / vertices
-        oriented = oriented_surface(cloud.points, cloud.normals, options.normals, per_vertex, progress)
+        oriented = oriented_surface(cloud.points, cloud.normals, options.normals, per_vertex, progress, cloud.sensors())
         surface = oriented.surface
         embedded = embed_surface(surface, vertices, options.embedding, progress)
     choices = (*oriented.choices, *embedded.choices)

@@ -14,6 +14,8 @@ from hdpea.errors import UnreadableInput, UsageError
 
 NORMAL_NAMES = (("nx", "ny", "nz"), ("normal_x", "normal_y", "normal_z"), ("normalx", "normaly", "normalz"))
 
+SENSOR_NAMES = ("sensor_x", "sensor_y", "sensor_z")
+
 MESH_NOTE = "The file is a mesh; its vertices are taken as points, its faces are not used."
 
 
@@ -47,6 +49,16 @@ class PointCloud:
     dropped_non_finite: int = 0
     dropped_duplicates: int = 0
     unusable_normals: int = 0
+
+    def sensors(self) -> NDArray[np.float64] | None:
+        """Return from where each point was seen, (n, 3), if the file says so: in sensor_x, y and z, or in sensor."""
+        if "sensor" in self.attributes:
+            array = np.asarray(self.attributes["sensor"])
+            is_positions = array.shape == self.points.shape and array.dtype.kind in "fiu"
+            return array.astype(np.float64) if is_positions else None
+        if not all(name in self.attributes for name in SENSOR_NAMES):
+            return None
+        return np.stack([np.asarray(self.attributes[name], dtype=np.float64) for name in SENSOR_NAMES], axis=1)
 
     def counts(self) -> dict[str, int]:
         """Return how many points there are, and what was wrong with others, by name."""
@@ -83,8 +95,8 @@ def from_columns(columns: Mapping[str, NDArray[Any]], format: str, notes: Iterab
     return PointCloud(points, normals, attributes, format, tuple(notes))
 
 
-def from_arrays(points: ArrayLike, normals: ArrayLike | None = None) -> PointCloud:
-    """Take a caller's arrays, points (n, 3) and normals (n, 3), of any number type.
+def from_arrays(points: ArrayLike, normals: ArrayLike | None = None, sensors: ArrayLike | None = None) -> PointCloud:
+    """Take a caller's arrays, points, normals and sensor positions, each (n, 3), of any number type.
 
     Raises
     ------
@@ -93,9 +105,11 @@ def from_arrays(points: ArrayLike, normals: ArrayLike | None = None) -> PointClo
     """
     found = _rows(points, "points")
     given = None if normals is None else _rows(normals, "normals")
-    if given is not None and len(given) != len(found):
-        raise UsageError(f"There are {len(found)} points but {len(given)} normals.", "Each point needs its own.")
-    return PointCloud(found, given)
+    seen_from = None if sensors is None else _rows(sensors, "sensors")
+    for array, name in ((given, "normals"), (seen_from, "sensors")):
+        if array is not None and len(array) != len(found):
+            raise UsageError(f"There are {len(found)} points but {len(array)} {name}.", "Each point needs its own.")
+    return PointCloud(found, given, {} if seen_from is None else {"sensor": seen_from})
 
 
 def _rows(array: ArrayLike, name: str) -> NDArray[np.float64]:

@@ -69,7 +69,7 @@ def mesh_of_embedding(
     """Return the mesh that all stages after the embedding make of points (n, 3) and psi (n, 5)."""
     surface = Surface.of(UnitFrame(np.zeros(3), 1.0), points, normals)
     coordinates = np.hstack([points, psi])
-    bases = tangent_bases(coordinates, surface.neighbors, len(points) / vertices)
+    bases = tangent_bases(coordinates, surface.normals, surface.neighbors, len(points) / vertices)
     particles = spread_particles(coordinates, bases, surface.neighbors, min(vertices, len(points)))
     return refine_mesh(extract_mesh(particles, bases, surface), surface)
 

@@ -48,7 +48,8 @@ def command(ctx: click.Context, /, *, meshes: str, output: Path, like: Path | No
     manifest.json and DATASET_CARD.md.
 
     A mesh that cannot be used is reported and skipped. A run that was stopped is continued by the
-    same command. Lengths are shares of the diagonal of the mesh's bounding box.
+    same command. Lengths are shares of the diagonal of the mesh's bounding box, or spacings
+    (sqrt(area / vertices)) where it says so.
     """
     from hdpea.dataset.building import build_dataset
     from hdpea.dataset.manifest import read_manifest

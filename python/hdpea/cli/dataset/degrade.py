@@ -22,7 +22,7 @@ Examples:
 @click.command(cls=GroupedCommand, epilog=EPILOG, no_args_is_help=True, short_help="Make a sample worse.")
 @click.argument("source", metavar="IN", type=click.Path(path_type=Path))
 @click.argument("output", metavar="OUT", type=click.Path(path_type=Path))
-@setting_options("run", owner=DegradationOptions)
+@setting_options("run", owner=DegradationOptions, heading="Degradation")
 def command(source: Path, output: Path, **values: Any) -> None:
     """Make the sample IN worse, as scans are, and write it as OUT; both are NPZ.
 

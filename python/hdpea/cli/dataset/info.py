@@ -27,8 +27,10 @@ def command(source: Path) -> None:
     """Say what is in the dataset, or the sample, IN.
 
     Of a dataset every file is read and checked. Curvatures are per unit length, lengths shares of
-    the diagonal of the mesh's bounding box. The stretches of a single sample are those under the
-    default metric, since its file does not say under which it was made.
+    the diagonal of the mesh's bounding box. The isometry error is that of distances in R^8 between
+    neighbours, as a share of their length under the metric; the roughness, how far neighbours lie
+    off their plane there. For a single sample the metric is the default one, since its file does
+    not say under which it was made.
     """
     if source.is_dir():
         from hdpea.dataset.loading import Dataset

@@ -32,7 +32,8 @@ def command(mesh: Path, output: Path, quiet: bool, **values: Any) -> None:
     faces and, as sensor_x, sensor_y and sensor_z, where the sensor stood; reconstruct takes it. NPZ
     is a sample, with the truth about the surface at every point, which takes longer.
 
-    Lengths are shares of the diagonal of the mesh's bounding box.
+    Lengths are shares of the diagonal of the mesh's bounding box, or spacings
+    (sqrt(area / vertices)) where it says so.
     """
     from hdpea.dataset.surface_file import read_surface
     from hdpea.outputs import check_not_input, check_output

@@ -1,0 +1,96 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""How good the embedding of a sample is: how far from isometric, how far from smooth."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hdpea import _core
+from hdpea.dataset.options import GroundTruthOptions
+from hdpea.dataset.sample import Sample
+from hdpea.errors import core_errors_translated
+
+Rows = NDArray[np.float64]
+
+NEIGHBORS = 12
+"""Nearest points of the same sheet between which lengths are measured, as many as the paper takes for an area."""
+
+
+def neighbors_of(sample: Sample) -> NDArray[np.int64]:
+    """Return the nearest points (n, 12) of the same sheet as each, -1 pads; nearest in space, where noise is not."""
+    points, normals = sample.surface_points.astype(np.float64), sample.normals.astype(np.float64)
+    with core_errors_translated():
+        return _core.sheet_neighbors(points, normals, _core.nearest_neighbors(points, NEIGHBORS))
+
+
+def spacing_of(sample: Sample, options: GroundTruthOptions) -> float:
+    """Return sqrt(area / vertices) in the unit frame, the unit of the lengths in `options`.
+
+    The area is that of the surface the points show, to some percent: a disk that reaches to the k-th neighbour of a
+    point holds k points' worth of area, however dense the points are there. (A sample does not hold its mesh.)
+    """
+    offsets, known = _offsets(sample.surface_points.astype(np.float64), neighbors_of(sample))
+    squared_radii = np.einsum("nkc,nkc->nk", offsets, offsets).max(axis=1)
+    area = float((np.pi * squared_radii / np.maximum(known.sum(axis=1), 1)).sum())
+    return float(np.sqrt(area / options.vertices))
+
+
+def stretches(curvatures: NDArray[np.float32], options: GroundTruthOptions, spacing: float) -> Rows:
+    """Return how much the metric stretches along the principal directions (n, 2): sqrt(clamp(c |k|, 1, s_max^2)).
+
+    Parameters
+    ----------
+    curvatures
+        (n, 2), in 1 / unit length.
+    spacing
+        The unit of the lengths in `options`, in unit length.
+    """
+    scaled = options.metric_scale * spacing * abs(curvatures.astype(np.float64))
+    return np.sqrt(np.clip(scaled, 1, options.max_stretch**2))
+
+
+def isometry_errors(sample: Sample, options: GroundTruthOptions, spacing: float) -> Rows:
+    """Return by how much distances in R^8 from each point to its neighbours are off their length under the metric.
+
+    A length under the metric is sqrt(dx^T M dx), with the mean M of both ends; the error (n,) is the root mean
+    square over the neighbours of the ratio less 1: 0 where the embedding is isometric, or there are none.
+    """
+    neighbors = neighbors_of(sample)
+    offsets, known = _offsets(sample.surface_points.astype(np.float64), neighbors)
+    embedded, _ = _offsets(sample.embedding.astype(np.float64), neighbors)
+    metric = _metric(sample, stretches(sample.curvatures, options, spacing))
+    between = (metric[:, None] + metric[neighbors]) / 2
+    wanted = np.sqrt(np.einsum("nki,nkij,nkj->nk", offsets, between, offsets))
+    apart = known & (wanted > 0)  # points may coincide
+    ratios = np.linalg.norm(embedded, axis=2) / np.where(apart, wanted, 1)
+    squares = np.where(apart, (ratios - 1) ** 2, 0).sum(axis=1)
+    return np.asarray(np.sqrt(squares / np.maximum(apart.sum(axis=1), 1)))
+
+
+def roughness(sample: Sample) -> Rows:
+    """Return how far the neighbours of each point lie off their best plane in R^8, over how far they lie apart.
+
+    The share (n,) is a root mean square of distances: 0 where the embedding is flat, more than a half where psi is
+    noise, and where it is smooth the less the denser the points.
+    """
+    neighbors = neighbors_of(sample)
+    offsets, known = _offsets(sample.embedding.astype(np.float64), neighbors)
+    counts = np.maximum(known.sum(axis=1), 1)[:, None, None]
+    centred = np.where(known[:, :, None], offsets - offsets.sum(axis=1, keepdims=True) / counts, 0)
+    spread = np.linalg.eigvalsh(np.einsum("nki,nkj->nij", centred, centred)).clip(0)
+    total = spread.sum(axis=1)
+    return np.asarray(np.sqrt(spread[:, :-2].sum(axis=1) / np.where(total > 0, total, 1)))
+
+
+def _offsets(rows: Rows, neighbors: NDArray[np.int64]) -> tuple[Rows, NDArray[np.bool_]]:
+    """Return the rows (n, k, d) of the neighbours less those of the points, 0 where there is none, and which are."""
+    known = neighbors >= 0
+    return np.where(known[:, :, None], rows[neighbors] - rows[:, None], 0), known
+
+
+def _metric(sample: Sample, stretch: Rows) -> Rows:
+    """Return M (n, 3, 3), the identity along the normals."""
+    direction1 = sample.direction1.astype(np.float64)
+    directions = np.stack([direction1, np.cross(sample.normals.astype(np.float64), direction1)], axis=1)
+    return np.asarray(np.eye(3) + np.einsum("nd,ndi,ndj->nij", stretch**2 - 1, directions, directions))
