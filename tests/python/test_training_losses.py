@@ -12,8 +12,8 @@ from networks import torus_sample
 from torch import Tensor
 
 from hdpea import _core
+from hdpea.network.averaging import Neighborhoods, averaged, tangents
 from hdpea.training.losses import Truth, loss_parts, metric_errors
-from hdpea.training.neighborhoods import Neighborhoods, tangents
 from hdpea.training.options import LOSSES, LossOptions
 
 GAUGE_FREE = ("local", "ndhde-mae", "ndhde-mse")
@@ -76,16 +76,30 @@ def test_what_is_flatter_than_the_truth_is_not_rewarded(truth: Truth) -> None:
     assert loss_parts(truth.psi, noisy, LossOptions())["flatness"] < 0.001
 
 
-def test_an_affine_psi_is_fitted_whole() -> None:
-    random = torch.Generator().manual_seed(0)
+def flat_patch(random: torch.Generator) -> tuple[Tensor, Neighborhoods]:
     flat = torch.cat([torch.rand(200, 2, generator=random), torch.zeros(200, 1)], dim=1)
     normals = torch.tensor([[0.0, 0.0, 1.0]]).expand(200, 3)
     neighbors = torch.from_numpy(_core.nearest_neighbors(flat.double().numpy(), 16))
+    return flat, Neighborhoods.of(flat, normals, neighbors)
+
+
+def test_an_affine_psi_is_fitted_whole() -> None:
+    random = torch.Generator().manual_seed(0)
+    flat, around = flat_patch(random)
     jacobian = torch.randn(5, 3, generator=random)
-    gradient, left = Neighborhoods.of(flat, normals, neighbors).fit(flat @ jacobian.T)
-    expected = tangents(normals) @ jacobian.T
+    gradient, left = around.fit(flat @ jacobian.T)
+    expected = (tangents(torch.tensor([[0.0, 0.0, 1.0]])) @ jacobian.T).expand_as(gradient)
     torch.testing.assert_close(gradient, expected, rtol=0.02, atol=0.02)
     assert left.max() < 0.02
+
+
+def test_averages_leave_what_is_affine_alone_and_noise_not() -> None:
+    random = torch.Generator().manual_seed(0)
+    flat, around = flat_patch(random)
+    averaging = around.averaging()
+    affine, noise = flat @ torch.randn(3, 5, generator=random) + 1, torch.randn(200, 5, generator=random)
+    torch.testing.assert_close(averaged(affine, around.members, averaging), affine, rtol=0, atol=0.01)
+    assert averaged(noise, around.members, averaging).std() < 0.5 * noise.std()
 
 
 def test_tangents_are_an_orthonormal_basis() -> None:

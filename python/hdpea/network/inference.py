@@ -7,29 +7,27 @@ import numpy as np
 import torch
 from numpy.typing import NDArray
 
-from hdpea import _core
 from hdpea.network.clouds import Clouds, centred_points
 from hdpea.network.transformer import PointTransformer
+from hdpea.surface import Surface, area_shown
 
-SAMPLING = (0.0025, 0.010)
-"""Distances to the 6th neighbour, unit frame, that training has seen: of 60,000 points of a small area to 20,000 of a
-large one."""
-
-SIXTH = 6
+AREA_NEIGHBORS = 12
+"""Nearest points of the same sheet that the area is taken from, as the ground truth does."""
 
 
-def sampling_scale(points: NDArray[np.floating]) -> float:
-    """Return the factor that brings points (n, 3) to a sampling that training has seen; 1 for most models.
-
-    The network's metric is one of curvature in the unit frame, so a cloud is scaled no more than it must be.
-    """
-    neighbors = _core.nearest_neighbors(np.ascontiguousarray(points, np.float64), SIXTH)
-    sixth = float(np.median(np.linalg.norm(points[neighbors[:, -1]] - points, axis=1)))
-    return float(np.clip(sixth, *SAMPLING)) / sixth
+def surface_psi(network: PointTransformer, surface: Surface, vertices: int) -> NDArray[np.float64]:
+    """Return psi (n, 5) of a surface in its unit frame, at the scale that a mesh of so many `vertices` can show."""
+    points = surface.points_in_unit
+    spacing = np.sqrt(area_shown(points, surface.neighbors[:, :AREA_NEIGHBORS]) / vertices)
+    return predict_psi(network, points, surface.normals, surface.neighbors, float(spacing))
 
 
 def predict_psi(
-    network: PointTransformer, points: NDArray[np.floating], normals: NDArray[np.floating], scale: float | None = None
+    network: PointTransformer,
+    points: NDArray[np.float64],
+    normals: NDArray[np.float64],
+    neighbors: NDArray[np.int64],
+    spacing: float,
 ) -> NDArray[np.float64]:
     """Return the extra coordinates psi (n, 5) of points, in their own units.
 
@@ -38,22 +36,25 @@ def predict_psi(
     Parameters
     ----------
     points
-        (n, 3), distinct; a bounding-box diagonal of 1 is what the network knows.
+        (n, 3), distinct.
     normals
         (n, 3), unit, consistently oriented.
-    scale
-        Factor on the points before the network, taken from psi again: the metric becomes that of the scaled cloud.
-        Default: ``sampling_scale``.
+    neighbors
+        (n, k): nearest points of the same sheet, nearest first, -1 pads.
+    spacing
+        sqrt(area / vertices) of the mesh to come, in the points' units: the scale of the metric.
     """
-    centred = centred_points(points)
+    centred = centred_points(points) / spacing
     order = np.lexsort(centred.T)
-    scale = sampling_scale(centred[order]) if scale is None else scale
-    clouds = Clouds.of(scale * centred[order], normals[order], network.options.stem_neighbors)
+    place = np.empty_like(order)
+    place[order] = np.arange(len(order))
+    sorted_neighbors = np.where(neighbors < 0, neighbors, place[neighbors])[order]
+    clouds = Clouds.of(centred[order], normals[order], np.ascontiguousarray(sorted_neighbors))
     was_training = network.training
     network.eval()
     with torch.no_grad():
         predicted = network(clouds.to(next(network.parameters()).device)).cpu().numpy()
     network.train(was_training)
     psi = np.empty(predicted.shape)
-    psi[order] = predicted / scale
+    psi[order] = predicted * spacing
     return psi

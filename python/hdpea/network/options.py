@@ -20,14 +20,15 @@ class NetworkOptions(Checked):
     head_width: int = option(16, "channels of an attention head", minimum=1)
     patch_size: int = option(256, "voxels that attend to each other", minimum=1)
     mlp_ratio: int = option(2, "width inside a block's MLP, in its own width", minimum=1)
-    voxel: float = option(0.008, "side of the finest voxels, unit frame; doubles at each level", minimum=1e-6)
-    stem: bool = option(True, "edge convolutions on nearest neighbours before the first pooling")
+    voxel: float = option(0.56, "side of the finest voxels, in spacings; doubles at each level", minimum=1e-6)
+    neighbors: int = option(16, "nearest points that stem and averages look at", minimum=1)
+    shape: bool = option(True, "the shape operator, fitted to the normals, is a feature of each point")
+    stem: bool = option(False, "edge convolutions on nearest neighbours before the first pooling")
     stem_channels: int = option(32, "width of the edge convolutions", minimum=1)
-    stem_neighbors: int = option(16, "nearest points that they look at", minimum=1)
-    normal_share: float = option(0.2, "psi is this times the normal, as the solver's is at first, plus what is learned")
+    normal_share: float = option(14.0, "psi is this times the normal, in spacings, plus what is learned", minimum=0)
     normal_gate: bool = option(True, "that share is learned point by point, and only begins so")
-    normal_rounds: int = option(2, "times the normals are averaged over the same neighbours before that", minimum=0)
-    smoothing: int = option(2, "times psi is averaged over the same neighbours, as the last layer", minimum=0)
+    normal_rounds: int = option(2, "times the normals are averaged over neighbours before that", minimum=0)
+    smoothing: int = option(2, "times psi is averaged over neighbours, as the last layer", minimum=0)
     seed: int = option(0, "seed of the first weights", minimum=0)
 
     def __post_init__(self) -> None:
@@ -54,8 +55,8 @@ CONFIGURATIONS: dict[str, NetworkOptions] = {
         decoder_depths=(2, 2, 2, 2),
         patch_size=1024,
         mlp_ratio=4,
-        voxel=0.004,
-        stem=False,
+        voxel=0.28,
+        shape=False,
         normal_share=0.0,
         normal_gate=False,
         smoothing=0,

@@ -70,7 +70,9 @@ class EdgeStem(nn.Module):
 
     def forward(self, points: Tensor, normals: Tensor, neighbors: Tensor) -> Tensor:
         """Map points and normals (n, 3) with neighbours (n, k) to features (n, channels)."""
+        itself = torch.arange(len(points), device=points.device)[:, None]
         nearest = neighbors[:, : self.neighbors]
+        nearest = torch.where(nearest < 0, itself, nearest)
         edges = edge_features(points, normals, nearest)
         x = self.first(None, edges, nearest)
         mapped: Tensor = x + self.second(x, edges, nearest)

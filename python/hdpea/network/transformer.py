@@ -6,6 +6,7 @@ from __future__ import annotations
 import torch
 from torch import Tensor, nn
 
+from hdpea.network.averaging import Neighborhoods, averaged
 from hdpea.network.clouds import Clouds
 from hdpea.network.curves import CURVES
 from hdpea.network.layers import Block, rows
@@ -13,14 +14,17 @@ from hdpea.network.options import NetworkOptions
 from hdpea.network.stem import EdgeStem
 from hdpea.network.voxels import MIDDLE, Voxels
 
-LENGTH = 0.005
-"""What the network counts lengths in, unit frame: about the distance to the 6th neighbour in 40,000 points."""
+EDGE = 0.4
+"""What the stem counts lengths in, in spacings: about the distance to the 5th neighbour, with 8 points per vertex."""
+
+FLAT = 0.02
+"""Curvature, 1 / spacing, below which the metric does not stretch."""
 
 OUTPUTS = 5
 """The dimensions of psi."""
 
-PSI_STEP, GATE_STEP = 0.05, 0.25
-"""How far outputs of 1 move psi, and the gate as a share of itself; both about as far, that gradients be alike."""
+PSI_STEP, GATE_STEP = 3.5, 0.25
+"""How far outputs of 1 move psi, in spacings, and the gate as a share of itself; both about as far."""
 
 FIRST_OUTPUTS = 0.1
 """Factor on the first weights of the outputs: what an untrained network adds to the normals is jitter."""
@@ -44,8 +48,8 @@ class PointTransformer(nn.Module):
             self._build(options)
 
     def _build(self, o: NetworkOptions) -> None:
-        self.stem = EdgeStem(o.stem_channels, o.stem_neighbors) if o.stem else None
-        point_channels = 6 + (o.stem_channels if o.stem else 0)
+        self.stem = EdgeStem(o.stem_channels, o.neighbors) if o.stem else None
+        point_channels = 6 + 12 * o.shape + o.stem_channels * o.stem
         self.enter = _mapped(point_channels, o.channels[0])
         self.down = nn.ModuleList(_mapped(*pair) for pair in zip(o.channels, o.channels[1:], strict=False))
         self.encoder = nn.ModuleList(self._blocks(*each) for each in zip(o.channels, o.depths, strict=True))
@@ -69,23 +73,25 @@ class PointTransformer(nn.Module):
         return nn.ModuleList(Block(channels, o.head_width, o.patch_size, o.mlp_ratio) for _ in range(depth))
 
     def forward(self, clouds: Clouds) -> Tensor:
-        """Return psi (n, 5) float32 in the unit frame, of points (n, 3) in the unit frame."""
+        """Return psi (n, 5) float32 of the points, in spacings."""
         voxels, index, features = self._points(clouds)
         x = self._unet(_pooled(self.enter(features), index, len(voxels.cells)), voxels)
         x = self.leave(torch.cat([rows(x, index), features], dim=1))
         psi: Tensor = PSI_STEP * self.psi(x)  # (n, 5)
-        neighbors = clouds.neighbors[:, : self.options.stem_neighbors]
+        around = Neighborhoods.of(clouds.points, clouds.normals, clouds.neighbors[:, : self.options.neighbors])
+        averaging = around.averaging()
         share = self.options.normal_share
         if share:
             # Facets and noise make normals jump, which psi never does.
             normals = clouds.normals
             for _ in range(self.options.normal_rounds):
-                normals = _smoothed(normals, clouds.normals, neighbors)
+                normals = averaged(normals, around.members, averaging)
             # Round a cylinder of radius r, the solution is the normal times sqrt(c r - r^2).
             gate = share * (1 + GATE_STEP * self.gate(x)) if self.gate is not None else share
             psi = psi + nn.functional.pad(gate * normals, (0, OUTPUTS - 3))
+        # What the network says varies from point to point more than psi can, and meshing asks for planes that agree.
         for _ in range(self.options.smoothing):
-            psi = _smoothed(psi, clouds.normals, neighbors)
+            psi = averaged(psi, around.members, averaging)
         return psi
 
     def _points(self, clouds: Clouds) -> tuple[Voxels, Tensor, Tensor]:
@@ -94,8 +100,12 @@ class PointTransformer(nn.Module):
         cells = places.floor()
         voxels, index = Voxels.holding(cells.long() + MIDDLE, clouds.batch)
         features = [places - cells - 0.5, clouds.normals]
+        if self.options.shape:
+            size = (clouds.shape.square() @ clouds.shape.new_tensor([1, 1, 1, 2, 2, 2])).sqrt()  # Frobenius norm
+            # psi's gradient goes with the root of the curvature.
+            features += [clouds.shape, clouds.shape / (size + FLAT).sqrt()[:, None]]
         if self.stem is not None:
-            features.append(self.stem(clouds.points / LENGTH, clouds.normals, clouds.neighbors))
+            features.append(self.stem(clouds.points / EDGE, clouds.normals, clouds.neighbors))
         return voxels, index, torch.cat(features, dim=1)
 
     def _unet(self, x: Tensor, voxels: Voxels) -> Tensor:
@@ -136,15 +146,3 @@ def _pooled(x: Tensor, index: Tensor, count: int) -> Tensor:
     """Return the mean (count, c) of features (n, c) by the voxel that they lie in."""
     sums = torch.zeros(count, x.shape[1], dtype=x.dtype, device=x.device).index_add(0, index, x)
     return sums / torch.bincount(index, minlength=count)[:, None]
-
-
-def _smoothed(values: Tensor, normals: Tensor, neighbors: Tensor) -> Tensor:
-    """Return values (n, c) averaged over each point and its neighbours, the less the more their normals differ.
-
-    What the network says varies from point to point more than psi can, and meshing asks for planes that agree;
-    the far side of a thin wall has no say.
-    """
-    cosine = (rows(normals, neighbors) * normals[:, None]).sum(dim=2)  # (n, k)
-    weight = ((1 + cosine) / 2).clamp_min(0).square()
-    nearby = (rows(values, neighbors) * weight[:, :, None]).sum(dim=1)  # (n, c)
-    return (values + nearby) / (1 + weight.sum(dim=1, keepdim=True))

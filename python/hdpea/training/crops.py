@@ -32,6 +32,9 @@ class Samples(Protocol):
     def read(self, name: str) -> Sample:
         """Read one."""
 
+    def spacing(self, name: str) -> float:
+        """Return the unit of the lengths of its ground truth, in unit length."""
+
 
 @dataclass
 class Crop:
@@ -49,7 +52,9 @@ class Crop:
             for name in ("points", "normals", "psi", "weights")
         }
         joined["weights"] /= len(crops)
-        return cls(clouds, Truth(neighbors=clouds.neighbors, **joined))
+        starts = np.cumsum([0, *(len(each.truth.points) for each in crops)])
+        neighbors = [each.truth.neighbors + int(start) for each, start in zip(crops, starts, strict=False)]
+        return cls(clouds, Truth(neighbors=torch.cat(neighbors), **joined))
 
     def to(self, device: torch.device) -> Crop:
         """Return the crop on a device."""
@@ -60,12 +65,13 @@ def crop_number(number: int, samples: Samples, options: CropOptions, neighbors: 
     """Return the crop of that number: in each epoch, every sample once, in an order of the epoch's own."""
     epoch, place = divmod(number, len(samples.names))
     order = np.random.default_rng((seed, ORDER, epoch)).permutation(len(samples.names))
-    sample = samples.read(samples.names[order[place]])
-    return cut_crop(sample, options, neighbors, np.random.default_rng((seed, CROP, number)))
+    name = samples.names[order[place]]
+    random = np.random.default_rng((seed, CROP, number))
+    return cut_crop(samples.read(name), samples.spacing(name), options, neighbors, random)
 
 
-def cut_crop(sample: Sample, options: CropOptions, neighbors: int, random: np.random.Generator) -> Crop:
-    """Cut, thin, turn and disturb a part of a sample; with `neighbors` nearest points of each point."""
+def cut_crop(sample: Sample, spacing: float, options: CropOptions, neighbors: int, random: np.random.Generator) -> Crop:
+    """Cut, thin, turn and disturb a part of a sample, in spacings; with `neighbors` nearest points of each point."""
     count = len(sample.points)
     size = int(random.integers(options.least_points, options.most_points, endpoint=True))
     density = random.integers(options.least_density, options.most_density, endpoint=True)
@@ -77,23 +83,25 @@ def cut_crop(sample: Sample, options: CropOptions, neighbors: int, random: np.ra
     judged = len(chosen) if len(chosen) == len(kept) else int(len(chosen) * (1 - options.margin))
 
     matrix = _orthogonal(options.rotations, random)
-    surface_points, true_normals = sample.surface_points[chosen] @ matrix.T, sample.normals[chosen] @ matrix.T
-    points, normals = sample.points[chosen] @ matrix.T, true_normals
+    surface_points, points = (each[chosen] @ matrix.T / spacing for each in (sample.surface_points, sample.points))
+    true_normals = sample.normals[chosen] @ matrix.T
+    normals = true_normals
     if sample.estimated_normals is not None and random.random() < options.estimated_share:
         normals = sample.estimated_normals[chosen] @ matrix.T
     if random.random() < options.noisy_share and np.array_equal(points, surface_points):
         points = points + options.noise * random.random() ** 2 * random.standard_normal(points.shape)
     if random.random() < options.tilted_share:
         normals = normals + options.tilt * random.random() ** 2 * random.standard_normal(normals.shape)
-        normals /= np.linalg.norm(normals, axis=1, keepdims=True)
+    normals = normals / np.linalg.norm(normals, axis=1, keepdims=True)
     # The solver starts from the normal in the first three columns, so they turn with the cloud.
-    psi = np.hstack([sample.psi[chosen, :3] @ matrix.T, sample.psi[chosen, 3:]])
+    psi = np.hstack([sample.psi[chosen, :3] @ matrix.T, sample.psi[chosen, 3:]]) / spacing
 
-    nearest = _core.nearest_neighbors(np.ascontiguousarray(points, np.float64), min(neighbors, len(chosen) - 1))
-    clouds = Clouds.of(points, normals, nearest)
+    nearest = _core.nearest_neighbors(points, min(neighbors, len(chosen) - 1))
+    clouds = Clouds.of(points, normals, _core.sheet_neighbors(points, normals, nearest))
     weights = torch.zeros(len(chosen))
     weights[:judged] = 1 / judged
-    return Crop(clouds, Truth(_tensor(surface_points), _tensor(true_normals), _tensor(psi), clouds.neighbors, weights))
+    truth = Truth(_tensor(surface_points), _tensor(true_normals), _tensor(psi), torch.from_numpy(nearest), weights)
+    return Crop(clouds, truth)
 
 
 def _tensor(array: NDArray[np.floating]) -> torch.Tensor:

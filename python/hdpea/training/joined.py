@@ -24,3 +24,8 @@ class Joined:
         """Read one."""
         dataset, own_name = self._homes[name]
         return dataset.read(own_name)
+
+    def spacing(self, name: str) -> float:
+        """Return the unit of the lengths of its ground truth, in unit length."""
+        dataset, own_name = self._homes[name]
+        return dataset.spacing(own_name)

@@ -15,13 +15,17 @@ import torch
 from torch import Tensor
 
 from hdpea.network.layers import rows
-from hdpea.training.neighborhoods import Neighborhoods
+from hdpea.network.averaging import Neighborhoods
 from hdpea.training.options import LossOptions
+
+
+FIT_NEIGHBORS = 16
+"""Nearest points that the local metric is fitted to."""
 
 
 @dataclass
 class Truth:
-    """What is true of n points.
+    """What is true of n points; lengths in spacings.
 
     Attributes
     ----------
@@ -89,7 +93,7 @@ def loss_parts(psi: Tensor, truth: Truth, options: LossOptions) -> dict[str, Ten
     Scalars: ``loss``; ``distance`` (mean error over mean true distance), ``metric``, ``flatness``.
     """
     errors, true_distances = distance_errors(psi, truth, options.distance_neighbors)
-    around = Neighborhoods.of(truth.points, truth.normals, truth.neighbors)
+    around = Neighborhoods.of(truth.points, truth.normals, truth.neighbors[:, :FIT_NEIGHBORS])
     gradient, left = around.fit(psi)
     true_gradient, true_left = around.fit(truth.psi)
 
@@ -117,7 +121,7 @@ def loss_parts(psi: Tensor, truth: Truth, options: LossOptions) -> dict[str, Ten
 
 def _squared_distances(values: Tensor, neighbors: Tensor) -> Tensor:
     """Return the squared distances (n, k) of values (n, c) to their neighbours (n, k)."""
-    # The root of 0 has no gradient; points closer than 1e-6 of the diagonal are the same.
+    # The root of 0 has no gradient; points closer than 1e-6 spacings are the same.
     return (rows(values, neighbors) - values[:, None]).square().sum(dim=2) + 1e-12
 
 

@@ -28,7 +28,7 @@ class LossOptions(Checked):
 
 @dataclass(frozen=True)
 class CropOptions(Checked):
-    """What the network is shown of a cloud (``hdpea.training.crops``); lengths in the unit frame."""
+    """What the network is shown of a cloud (``hdpea.training.crops``)."""
 
     least_points: int = option(4_000, "points of the smallest crop", minimum=64)
     most_points: int = option(8_000, "points of the largest crop", minimum=64)
@@ -41,7 +41,7 @@ class CropOptions(Checked):
     least_density: int = option(20_000, "points that a whole cloud is thinned to, at least", minimum=64)
     most_density: int = option(60_000, "the same, at most", minimum=64)
     noisy_share: float = option(0.4, "share of crops that get noise on their points", minimum=0, maximum=1)
-    noise: float = option(0.003, "largest standard deviation of that noise", minimum=0)
+    noise: float = option(0.2, "largest standard deviation of that noise, in spacings of the vertices", minimum=0)
     tilted_share: float = option(0.4, "share of crops that get noise on their normals", minimum=0, maximum=1)
     tilt: float = option(0.2, "largest standard deviation of that noise, radians in each tangent", minimum=0)
     estimated_share: float = option(

@@ -15,8 +15,7 @@ from hdpea.network.options import NetworkOptions
 from hdpea.network.transformer import PointTransformer
 from hdpea.training.checkpoint import Checkpoint
 from hdpea.training.crops import Crop, Samples, crop_number
-from hdpea.training.losses import loss_parts
-from hdpea.training.neighborhoods import FIT_NEIGHBORS
+from hdpea.training.losses import FIT_NEIGHBORS, loss_parts
 from hdpea.training.options import TrainingOptions
 from hdpea.training.workers import Workers
 
@@ -43,7 +42,7 @@ class Training:
         )
         per_epoch = math.ceil(len(samples.names) / options.batch)
         self.steps = options.steps if options.epochs is None else options.epochs * per_epoch
-        self.neighbors = max(network.stem_neighbors, options.loss.distance_neighbors, FIT_NEIGHBORS)
+        self.neighbors = max(network.neighbors, options.loss.distance_neighbors, FIT_NEIGHBORS)
 
     def resume(self, checkpoint: Checkpoint) -> None:
         """Go on from a checkpoint of the same options; the number of steps may be another.

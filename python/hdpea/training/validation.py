@@ -13,7 +13,7 @@ from hdpea.dataset.sample import Sample
 from hdpea.errors import CannotReconstruct
 from hdpea.frame import UnitFrame
 from hdpea.meshing import Mesh, extract_mesh
-from hdpea.network.inference import predict_psi
+from hdpea.network.inference import surface_psi
 from hdpea.network.transformer import PointTransformer
 from hdpea.particles import spread_particles
 from hdpea.refinement import refine_mesh
@@ -48,10 +48,9 @@ def validate(network: PointTransformer, samples: Iterable[Sample], vertices: int
 
 def _scores(network: PointTransformer, sample: Sample, vertices: int) -> dict[str, float]:
     points, normals = np.asarray(sample.points, np.float64), np.asarray(sample.normals, np.float64)
-    normals /= np.linalg.norm(normals, axis=1, keepdims=True)
-    psi = predict_psi(network, points, normals)
+    surface = Surface.of(UnitFrame(np.zeros(3), 1.0), points, normals / np.linalg.norm(normals, axis=1, keepdims=True))
     try:
-        mesh = mesh_of_embedding(points, normals, psi, vertices)
+        mesh = mesh_of_embedding(surface, surface_psi(network, surface, vertices), vertices)
     except CannotReconstruct:
         return {"t3": 0.0, "g": 0.0, "boundary": float("nan")}
     check = _core.check_mesh(mesh.vertices_in_unit, mesh.faces)
@@ -63,14 +62,12 @@ def _scores(network: PointTransformer, sample: Sample, vertices: int) -> dict[st
     }
 
 
-def mesh_of_embedding(
-    points: NDArray[np.float64], normals: NDArray[np.float64], psi: NDArray[np.float64], vertices: int
-) -> Mesh:
-    """Return the mesh that all stages after the embedding make of points (n, 3) and psi (n, 5)."""
-    surface = Surface.of(UnitFrame(np.zeros(3), 1.0), points, normals)
-    coordinates = np.hstack([points, psi])
-    bases = tangent_bases(coordinates, surface.normals, surface.neighbors, len(points) / vertices)
-    particles = spread_particles(coordinates, bases, surface.neighbors, min(vertices, len(points)))
+def mesh_of_embedding(surface: Surface, psi: NDArray[np.float64], vertices: int) -> Mesh:
+    """Return the mesh that all stages after the embedding make of a surface of n points and psi (n, 5)."""
+    points = len(surface.points_in_unit)
+    coordinates = np.hstack([surface.points_in_unit, psi])
+    bases = tangent_bases(coordinates, surface.normals, surface.neighbors, points / vertices)
+    particles = spread_particles(coordinates, bases, surface.neighbors, min(vertices, points))
     return refine_mesh(extract_mesh(particles, bases, surface), surface)
 
 

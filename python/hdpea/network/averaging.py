@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The affine map that fits psi best around each point: its gradient and what it leaves over."""
+"""Averages over neighbours that leave what is affine alone: the intercept of a weighted least-squares fit."""
 
 from __future__ import annotations
 
@@ -10,27 +10,25 @@ from torch import Tensor
 
 from hdpea.network.layers import rows
 
-FIT_NEIGHBORS = 16
-"""Nearest points that the map is fitted to."""
-
 RIDGE = 1e-3
 """Added to the squared tangent coordinates, in squared radii, lest neighbours on a line leave the map open."""
 
 
 @dataclass
 class Neighborhoods:
-    """Weighted least squares in tangent coordinates, one for each of n points.
+    """Weighted affine fits in tangent coordinates, one around each of n points.
 
     Attributes
     ----------
     members
-        (n, k) int64: the point itself, then its neighbours.
+        (n, k) int64: the point itself, then its neighbours; the point again where there are fewer.
     weights
-        (n, k) float32, summing to 1: what lies on another sheet has none.
+        (n, k) float32, summing to 1: the less the more the normals differ, since the far side of a thin wall has no
+        say.
     design
         (n, k, 3): 1, then the tangent coordinates in radii of the neighbourhood.
-    solution
-        (n, 3, k): maps values at the members to the coefficients of the map.
+    normal_matrix
+        (n, 3, 3): of the least squares.
     radius
         (n,) float32: the largest distance to a member.
     """
@@ -38,14 +36,14 @@ class Neighborhoods:
     members: Tensor
     weights: Tensor
     design: Tensor
-    solution: Tensor
+    normal_matrix: Tensor
     radius: Tensor
 
     @classmethod
     def of(cls, points: Tensor, normals: Tensor, neighbors: Tensor) -> Neighborhoods:
-        """Prepare the fits around points (n, 3) with unit normals (n, 3) and neighbours (n, k >= 16)."""
+        """Prepare the fits around points (n, 3) with unit normals (n, 3) and neighbours (n, k), -1 pads."""
         itself = torch.arange(len(points), device=points.device)[:, None]
-        members = torch.cat([itself, neighbors[:, :FIT_NEIGHBORS]], dim=1)  # (n, k)
+        members = torch.cat([itself, torch.where(neighbors < 0, itself, neighbors)], dim=1)  # (n, k)
         way = rows(points, members) - points[:, None]  # (n, k, 3)
         radius = way.norm(dim=2).amax(dim=1).clamp_min(1e-12)  # (n,)
         cosine = (rows(normals, members) * normals[:, None]).sum(dim=2)
@@ -53,9 +51,16 @@ class Neighborhoods:
         weights = weights / weights.sum(dim=1, keepdim=True)  # (n, k)
         tangent = way @ tangents(normals).mT / radius[:, None, None]  # (n, k, 2)
         design = torch.cat([torch.ones_like(tangent[:, :, :1]), tangent], dim=2)  # (n, k, 3)
-        weighted = (design * weights[:, :, None]).mT  # (n, 3, k)
-        ridge = RIDGE * torch.eye(3, device=points.device)
-        return cls(members, weights, design, torch.linalg.solve(weighted @ design + ridge, weighted), radius)
+        normal_matrix = design.mT @ (design * weights[:, :, None])
+        return cls(members, weights, design, normal_matrix + RIDGE * torch.eye(3, device=points.device), radius)
+
+    def averaging(self) -> Tensor:
+        """Return the weights (n, k) of the members in the value that the fit gives the point itself."""
+        unit = torch.zeros_like(self.normal_matrix[:, :, :1])
+        unit[:, 0] = 1
+        intercept = torch.linalg.solve(self.normal_matrix, unit)  # (n, 3, 1)
+        averaging: Tensor = (self.design @ intercept)[:, :, 0] * self.weights
+        return averaging / averaging.sum(dim=1, keepdim=True)
 
     def fit(self, psi: Tensor) -> tuple[Tensor, Tensor]:
         """Fit psi (n, c) around each point.
@@ -66,11 +71,18 @@ class Neighborhoods:
         in radii of the neighbourhood.
         """
         values = (rows(psi, self.members) - psi[:, None]) / self.radius[:, None, None]  # (n, k, c)
-        coefficients = self.solution @ values  # (n, 3, c)
+        weighted = self.design.mT @ (values * self.weights[:, :, None])  # (n, 3, c)
+        coefficients = torch.linalg.solve(self.normal_matrix, weighted)
         left = values - self.design @ coefficients  # (n, k, c)
         squared = (left.square().sum(dim=2) * self.weights).sum(dim=1)
         # The root of 0 has no gradient.
         return coefficients[:, 1:], (squared + 1e-12).sqrt()
+
+
+def averaged(values: Tensor, members: Tensor, averaging: Tensor) -> Tensor:
+    """Return values (n, c) averaged over members (n, k) with weights (n, k)."""
+    mean: Tensor = (averaging[:, None] @ rows(values, members))[:, 0]
+    return mean
 
 
 def tangents(normals: Tensor) -> Tensor:
