@@ -88,5 +88,5 @@ class InMemory:
     def read(self, name: str) -> Sample:
         return self.data[name]
 
-    def spacing(self, name: str) -> float:
+    def spacing(self, _name: str) -> float:
         return SPACING

@@ -8,8 +8,8 @@ from hashlib import sha256
 from pathlib import Path
 
 from hdpea.dataset.manifest import read_manifest
-from hdpea.dataset.recorded_options import options_recorded
 from hdpea.dataset.quality import spacing_of
+from hdpea.dataset.recorded_options import options_recorded
 from hdpea.dataset.sample import Sample
 from hdpea.dataset.sample_file import decoded
 from hdpea.errors import UnreadableInput, UsageError

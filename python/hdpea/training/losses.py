@@ -14,10 +14,9 @@ from dataclasses import dataclass, fields
 import torch
 from torch import Tensor
 
-from hdpea.network.layers import rows
 from hdpea.network.averaging import Neighborhoods
+from hdpea.network.layers import rows
 from hdpea.training.options import LossOptions
-
 
 FIT_NEIGHBORS = 16
 """Nearest points that the local metric is fitted to."""
