@@ -61,10 +61,11 @@ class PointTransformer(nn.Module):
         self.decoder = nn.ModuleList(self._blocks(*each) for each in decoder)
         width = o.decoder_channels[0] if o.decoder_channels else o.channels[0]
         self.leave = _mapped(width + point_channels, width)
+        self.affine = nn.Linear(width, OUTPUTS * 4)
         self.psi = nn.Linear(width, OUTPUTS)
         self.gate = nn.Linear(width, 1) if o.normal_gate else None
         with torch.no_grad():
-            for last in (self.psi, self.gate):
+            for last in (self.affine, self.psi, self.gate):
                 if last is not None:
                     last.weight *= FIRST_OUTPUTS
 
@@ -76,8 +77,11 @@ class PointTransformer(nn.Module):
         """Return psi (n, 5) float32 of the points, in spacings."""
         voxels, index, features = self._points(clouds)
         x = self._unet(_pooled(self.enter(features), index, len(voxels.cells)), voxels)
+        # Within a voxel psi varies as much as from voxel to voxel: each has an affine map, and points correct it.
+        maps = rows(self.affine(x), index).view(-1, OUTPUTS, 4)
+        offsets = nn.functional.pad(features[:, :3], (0, 1), value=1)  # (n, 4)
         x = self.leave(torch.cat([rows(x, index), features], dim=1))
-        psi: Tensor = PSI_STEP * self.psi(x)  # (n, 5)
+        psi: Tensor = PSI_STEP * (self.psi(x) + (maps @ offsets[:, :, None])[:, :, 0])  # (n, 5)
         around = Neighborhoods.of(clouds.points, clouds.normals, clouds.neighbors[:, : self.options.neighbors])
         averaging = around.averaging()
         share = self.options.normal_share
