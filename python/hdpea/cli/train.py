@@ -81,8 +81,10 @@ def command(
 ) -> None:
     """Train a network on DATASET, a folder that `hdpea dataset build` made, into the folder OUT.
 
-    OUT gets last.pt, from which the same command goes on where it was stopped, best.pt with the weights that
-    reconstructed the validation clouds best, and metrics.jsonl. Ctrl-C saves and stops.
+    OUT gets last.pt, from which the same command goes on where it was stopped, best.pt and best.safetensors with
+    the weights that reconstructed the validation clouds best, and metrics.jsonl. Ctrl-C saves and stops.
+
+    best.safetensors is what `hdpea reconstruct --embedding learned --weights` takes.
     """
     if ctx.get_parameter_source("steps") is ParameterSource.COMMANDLINE:
         values["epochs"] = (

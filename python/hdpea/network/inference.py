@@ -1,34 +1,35 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Psi of a whole cloud by a trained network."""
+"""Psi of clouds by a trained network: at once, or in patches."""
 
 from __future__ import annotations
+
+from collections.abc import Callable
 
 import numpy as np
 import torch
 from numpy.typing import NDArray
 
+from hdpea.errors import Interrupted
 from hdpea.network.clouds import Clouds, centred_points
+from hdpea.network.patches import cut_patches, joined_psi
 from hdpea.network.transformer import PointTransformer
-from hdpea.surface import Surface, area_shown
+from hdpea.options import EmbeddingOptions
 
-AREA_NEIGHBORS = 12
-"""Nearest points of the same sheet that the area is taken from, as the ground truth does."""
+PATCH_POINTS = 30_000
+"""Points of a patch."""
 
-
-def surface_psi(network: PointTransformer, surface: Surface, vertices: int) -> NDArray[np.float64]:
-    """Return psi (n, 5) of a surface in its unit frame, at the scale that a mesh of so many `vertices` can show."""
-    points = surface.points_in_unit
-    spacing = np.sqrt(area_shown(points, surface.neighbors[:, :AREA_NEIGHBORS]) / vertices)
-    return predict_psi(network, points, surface.normals, surface.neighbors, float(spacing))
+Array = NDArray[np.float64]
 
 
 def predict_psi(
     network: PointTransformer,
-    points: NDArray[np.float64],
-    normals: NDArray[np.float64],
+    points: Array,
+    normals: Array,
     neighbors: NDArray[np.int64],
     spacing: float,
-) -> NDArray[np.float64]:
+    whole_points: int = EmbeddingOptions.whole_points,
+    progress: Callable[[float], bool] = lambda _: True,
+) -> Array:
     """Return the extra coordinates psi (n, 5) of points, in their own units.
 
     Points are put in an order of their own first, so that theirs does not matter to the last bit.
@@ -43,6 +44,15 @@ def predict_psi(
         (n, k): nearest points of the same sheet, nearest first, -1 pads.
     spacing
         sqrt(area / vertices) of the mesh to come, in the points' units: the scale of the metric.
+    whole_points
+        Clouds of more points than this are embedded in patches.
+    progress
+        Is told the share that is done; False cancels.
+
+    Raises
+    ------
+    Interrupted
+        If `progress` cancels.
     """
     centred = centred_points(points) / spacing
     order = np.lexsort(centred.T)
@@ -50,11 +60,31 @@ def predict_psi(
     place[order] = np.arange(len(order))
     sorted_neighbors = np.where(neighbors < 0, neighbors, place[neighbors])[order]
     clouds = Clouds.of(centred[order], normals[order], np.ascontiguousarray(sorted_neighbors))
-    was_training = network.training
-    network.eval()
-    with torch.no_grad():
-        predicted = network(clouds.to(next(network.parameters()).device)).cpu().numpy()
-    network.train(was_training)
+    if len(points) <= whole_points:
+        predicted = _run(network, clouds)
+    else:
+        predicted = _run_in_patches(network, centred[order], clouds, progress)
     psi = np.empty(predicted.shape)
     psi[order] = predicted * spacing
     return psi
+
+
+def _run(network: PointTransformer, clouds: Clouds) -> Array:
+    was_training = network.training
+    network.eval()
+    with torch.no_grad():
+        psi = network(clouds.to(next(network.parameters()).device)).cpu().numpy()
+    network.train(was_training)
+    return np.asarray(psi, np.float64)
+
+
+def _run_in_patches(
+    network: PointTransformer, points: Array, clouds: Clouds, progress: Callable[[float], bool]
+) -> Array:
+    centres, patches = cut_patches(points, PATCH_POINTS)
+    psis = []
+    for number, patch in enumerate(patches):
+        if not progress(number / len(patches)):
+            raise Interrupted
+        psis.append(_run(network, clouds.part(torch.from_numpy(patch.members))))
+    return joined_psi(points, centres, patches, psis)

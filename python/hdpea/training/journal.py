@@ -11,12 +11,13 @@ from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
+from hdpea.network.weights import write_weights
 from hdpea.training.crops import Samples
 from hdpea.training.steps import Training
 from hdpea.training.validation import validate
 
-LAST, BEST, METRICS = "last.pt", "best.pt", "metrics.jsonl"
-"""The files of a training: to go on from, to use, to look at."""
+LAST, BEST, WEIGHTS, METRICS = "last.pt", "best.pt", "best.safetensors", "metrics.jsonl"
+"""The files of a training: to go on from, the same when it was best, to use, to look at."""
 
 
 class Journal:
@@ -52,12 +53,14 @@ class Journal:
         count = min(training.options.validation_clouds, len(validation.names))
         names = [validation.names[place * len(validation.names) // count] for place in range(count)]
         if self.writes and names:
-            samples = (validation.read(name) for name in names)
+            samples = ((validation.read(name), validation.spacing(name)) for name in names)
             scores = validate(training.averaged_network(), samples, training.options.validation_vertices)
             self._write({f"validation_{name}": value for name, value in scores.items()})
             if training.best is None or scores["score"] > training.best:
                 training.best = scores["score"]
                 self.save(BEST)
+                facts = {"step": str(training.step)} | {name: f"{value:.4g}" for name, value in scores.items()}
+                write_weights(self.out / WEIGHTS, training.averaged_network(), facts)
         self._since += time.monotonic() - started
 
     def save(self, name: str) -> None:

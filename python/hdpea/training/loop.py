@@ -37,7 +37,7 @@ def train(
     samples, validation
         What is trained on, and what is reconstructed every so often to choose the best weights.
     out
-        A folder for ``last.pt``, ``best.pt`` and ``metrics.jsonl``.
+        A folder for ``last.pt``, ``best.pt``, ``best.safetensors`` and ``metrics.jsonl``.
     stopped
         Asked between steps; True ends the training with a checkpoint and ``Interrupted``.
     workers
