@@ -90,7 +90,7 @@ def test_validation_reconstructs_and_keeps_the_best(tmp_path: Path) -> None:
     assert best.best == last["validation_score"]
     sample = validation.read("torus")
     # Training had one thread, which sums in another order.
-    assert validate(best.build(), [sample], 200)["score"] == pytest.approx(best.best, rel=1e-3)
+    assert validate(best.build(), [(sample, SPACING)], 200)["score"] == pytest.approx(best.best, rel=1e-3)
     assert np.isfinite(predicted(best.build(), *unit_torus())).all()
 
 

@@ -26,7 +26,7 @@ SWEEPS = 2
 BORDER = 1e-3
 """Weight of a patch's outermost point, beside 1 at its centre."""
 
-STIFFNESS = 0.01
+STIFFNESS = 0.001
 """Pull towards no turn at all, in squared spacings: where psi is flat, the shared points leave turns open."""
 
 Array = NDArray[np.float64]
