@@ -28,7 +28,7 @@ class NetworkOptions(Checked):
     normal_share: float = option(14.0, "psi is this times the normal, in spacings, plus what is learned", minimum=0)
     normal_gate: bool = option(True, "that share is learned point by point, and only begins so")
     normal_rounds: int = option(2, "times the normals are averaged over neighbours before that", minimum=0)
-    smoothing: int = option(2, "times psi is averaged over neighbours, as the last layer", minimum=0)
+    smoothing: int = option(8, "times psi is averaged over neighbours, as the last layer", minimum=0)
     seed: int = option(0, "seed of the first weights", minimum=0)
 
     def __post_init__(self) -> None:
