@@ -55,7 +55,7 @@ def predict_psi(
         If `progress` cancels.
     """
     centred = centred_points(points) / spacing
-    order = np.lexsort(centred.T)
+    order = canonical_order(centred)
     place = np.empty_like(order)
     place[order] = np.arange(len(order))
     sorted_neighbors = np.where(neighbors < 0, neighbors, place[neighbors])[order]
@@ -67,6 +67,11 @@ def predict_psi(
     psi = np.empty(predicted.shape)
     psi[order] = predicted * spacing
     return psi
+
+
+def canonical_order(points: Array) -> NDArray[np.int64]:
+    """Return the order (n,) of points (n, 3) by z, y, x, whatever order they come in."""
+    return np.lexsort(points.T)
 
 
 def _run(network: PointTransformer, clouds: Clouds) -> Array:
