@@ -211,8 +211,9 @@ def main(
         meshing=MeshingOptions(vertices=vertices),
         refinement=RefinementOptions(refine=refine),
     )
+    tasks = [Task(path, baselines, options, reference, save, picture) for path in paths]
     with ThreadPoolExecutor(jobs) as pool:
-        ours = list(pool.map(run_isolated, [Task(path, baselines, options, reference, save, picture) for path in paths]))
+        ours = list(pool.map(run_isolated, tasks))
     if save:
         write_scores(save / "scores.csv", ours)
     print_report(ours, read_rivals(baselines, [path.stem for path in paths]))
