@@ -18,9 +18,7 @@ NORMAL_FACTOR = 0.05
 """Factor on the normals, in diagonals, of the 6-D embedding [p, s n] that remeshers use (Levy and Bonneel 2013)."""
 
 
-def embed_isotropically(
-    surface: Surface, _: int, __: EmbeddingOptions, ___: Callable[[float], bool]
-) -> Embedded:
+def embed_isotropically(surface: Surface, _: int, __: EmbeddingOptions, ___: Callable[[float], bool]) -> Embedded:
     """Embed in R^3 as it is: psi is 0."""
     return Embedded(np.pad(surface.points_in_unit, ((0, 0), (0, 5))))
 
