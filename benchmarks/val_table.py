@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Scores on a folder of meshes, beside those of other methods.
 
-    python benchmarks/val_table.py [--meshes bull,trex] [--save DIR --picture] [--embedding oracle] [--no-refine]
+    python benchmarks/val_table.py [--meshes bull,trex] [--save DIR --picture] [--embedding learned] [--no-refine]
 
 Each mesh is sampled (40,000 points with normals, seeded by its name), reconstructed from the points alone, and scored
 by the `metrics.py` of the baselines' folder, whose `val.csv` has the other methods' rows. Prints Markdown. A mesh that
@@ -25,7 +25,7 @@ import click
 import numpy as np
 import trimesh
 from numpy.typing import NDArray
-from oracle import ORACLE, oracle_embedder
+from references import REFERENCES
 
 from hdpea import _core, reconstruct
 from hdpea.options import EmbeddingOptions, MeshingOptions, Options, RefinementOptions
@@ -52,7 +52,7 @@ class Task:
     path: Path
     baselines: Path
     options: Options
-    oracle: bool
+    reference: str | None
     save: Path | None
     picture: bool
 
@@ -102,7 +102,7 @@ def run_mesh(task: Task) -> Row:
     sampled = Sampled.of(task.path, metrics)
     truth = sampled.truth
 
-    embedder = oracle_embedder(truth.V, truth.F) if task.oracle else None
+    embedder = REFERENCES[task.reference](truth.V, truth.F) if task.reference else None
     start = time.perf_counter()
     result = reconstruct(sampled.points, sampled.normals, task.options, embedder=embedder)
     seconds = time.perf_counter() - start
@@ -199,7 +199,13 @@ def print_report(ours: list[Row], rivals: list[Row]) -> None:
 @click.argument("baselines", type=click.Path(exists=True, path_type=Path), default=ROOT / "../shared/baselines")
 @click.option("--meshes", help="only these, by name: bull,trex")
 @click.option("--vertices", default=5180, show_default=True)
-@click.option("--embedding", default=EmbeddingOptions().embedding, show_default=True, help=f"or {ORACLE}: the true one")
+@click.option(
+    "--embedding",
+    default=EmbeddingOptions().embedding,
+    show_default=True,
+    help=f"as of hdpea reconstruct, or one to compare with: {', '.join(REFERENCES)}",
+)
+@click.option("--weights", help="of the learned embedding, instead of those that come along")
 @click.option("--refine/--no-refine", default=True, show_default=True)
 @click.option("--jobs", default=1, show_default=True, help="meshes at a time; more than 1 spoils the seconds")
 @click.option("--save", type=click.Path(path_type=Path), help="folder for the meshes and scores.csv")
@@ -211,6 +217,7 @@ def main(
     meshes: str | None,
     vertices: int,
     embedding: str,
+    weights: str | None,
     refine: bool,
     jobs: int,
     save: Path | None,
@@ -220,14 +227,15 @@ def main(
     paths = meshes_of(folder, meshes)
     if save:
         save.mkdir(parents=True, exist_ok=True)
-    oracle = embedding == ORACLE
+    reference = embedding if embedding in REFERENCES else None
     options = Options(
-        embedding=EmbeddingOptions() if oracle else EmbeddingOptions(embedding=embedding),
+        embedding=EmbeddingOptions() if reference else EmbeddingOptions(embedding=embedding, weights=weights),
         meshing=MeshingOptions(vertices=vertices),
         refinement=RefinementOptions(refine=refine),
     )
+    tasks = [Task(path, baselines, options, reference, save, picture) for path in paths]
     with ThreadPoolExecutor(jobs) as pool:
-        ours = list(pool.map(run_isolated, [Task(path, baselines, options, oracle, save, picture) for path in paths]))
+        ours = list(pool.map(run_isolated, tasks))
     if save:
         write_scores(save / "scores.csv", ours)
     print_report(ours, read_rivals(baselines, [path.stem for path in paths]))

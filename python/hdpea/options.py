@@ -84,15 +84,24 @@ class NormalOptions(Checked):
 class EmbeddingOptions(Checked):
     """How the cloud is embedded in R^8 (``hdpea.embedding``)."""
 
-    embedding: str = option("direct", "direct: solved for on this cloud, no training", choices=("direct",))
+    embedding: str = option(
+        "direct",
+        "direct: solved for on this cloud; learned: by a trained network, at once",
+        choices=("direct", "learned"),
+    )
+    weights: str | None = option(None, "file of the network's weights, for learned; default: those that come along")
+    whole_points: int = option(
+        80_000, "learned: clouds of more points are embedded in patches that are joined (PMEI)", minimum=1
+    )
     curvature_radius: Length | None = option(
-        None, "radius in which curvature is measured, as 0.02 or 1%; default: from the vertex budget and the sampling"
+        None,
+        "direct: radius in which curvature is measured, as 0.02 or 1%; default: from vertex budget and sampling",
     )
     bending_length: Length | None = option(
-        None, "length below which the embedding does not bend, as 0.02 or 1%; default: from the vertex budget"
+        None, "direct: length below which it does not bend, as 0.02 or 1%; default: from the vertex budget"
     )
-    metric_scale: float = option(0.5, "c of the metric s^2 = c |k|: larger stretches more", minimum=0)
-    max_stretch: float = option(8.0, "largest stretch of the metric in any direction", minimum=1)
+    metric_scale: float = option(0.5, "direct: c of the metric s^2 = c |k|: larger stretches more", minimum=0)
+    max_stretch: float = option(8.0, "direct: largest stretch of the metric in any direction", minimum=1)
 
 
 @dataclass(frozen=True)

@@ -65,6 +65,17 @@ def median_spacing(points: NDArray[np.float64], neighbors: NDArray[np.int64]) ->
     return float(np.median(np.linalg.norm(points[neighbors[:, 0]] - points, axis=1)))
 
 
+def area_shown(points: NDArray[np.float64], neighbors: NDArray[np.int64]) -> float:
+    """Return the area of the surface that points (n, 3) show, to some percent; `neighbors` (n, k) as in ``Surface``.
+
+    A disk that reaches to the k-th neighbour of a point holds k points' worth of area, however dense they are there.
+    """
+    known = neighbors >= 0
+    offsets = np.where(known[:, :, None], points[neighbors] - points[:, None], 0)
+    squared_radii = np.einsum("nkc,nkc->nk", offsets, offsets).max(axis=1)
+    return float((np.pi * squared_radii / np.maximum(known.sum(axis=1), 1)).sum())
+
+
 def require_surface(points_in_unit: NDArray[np.float64]) -> None:
     """Refuse points (n, 3) that no surface can be made of.
 

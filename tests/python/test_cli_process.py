@@ -29,6 +29,7 @@ def test_help_imports_nothing_heavy() -> None:
         ["--help"],
         ["reconstruct", "--help"],
         ["curvature", "--help"],
+        ["train", "--help"],
         ["--version"],
         ["evaluate", "--help"],
         ["benchmark", "--help"],

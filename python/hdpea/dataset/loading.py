@@ -8,6 +8,8 @@ from hashlib import sha256
 from pathlib import Path
 
 from hdpea.dataset.manifest import read_manifest
+from hdpea.dataset.quality import spacing_of
+from hdpea.dataset.recorded_options import options_recorded
 from hdpea.dataset.sample import Sample
 from hdpea.dataset.sample_file import decoded
 from hdpea.errors import UnreadableInput, UsageError
@@ -31,6 +33,7 @@ class Dataset:
     def __init__(self, folder: Path | str) -> None:
         self.folder = Path(folder)
         self.manifest = read_manifest(self.folder)
+        self._spacings: dict[str, float] = {}
         self._entries = {each.name: each for each in self.manifest.samples}
 
     @property
@@ -71,6 +74,12 @@ class Dataset:
         if transform not in TRANSFORMS:
             raise UsageError(f"There is no transform {transform!r}.", f"There are {', '.join(TRANSFORMS)}.")
         return augmented(sample, TRANSFORMS[transform])
+
+    def spacing(self, name: str) -> float:
+        """Return the unit of the lengths in the ground truth's options for a sample, in unit length."""
+        if name not in self._spacings:
+            self._spacings[name] = spacing_of(self.read(name), options_recorded(self.manifest.options).ground_truth)
+        return self._spacings[name]
 
     def augmented(self) -> Iterator[Sample]:
         """Return every sample under every transform, made on loading; the transforms of a sample follow one another."""

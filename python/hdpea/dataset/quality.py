@@ -10,6 +10,7 @@ from hdpea import _core
 from hdpea.dataset.options import GroundTruthOptions
 from hdpea.dataset.sample import Sample
 from hdpea.errors import core_errors_translated
+from hdpea.surface import area_shown
 
 Rows = NDArray[np.float64]
 
@@ -27,12 +28,9 @@ def neighbors_of(sample: Sample) -> NDArray[np.int64]:
 def spacing_of(sample: Sample, options: GroundTruthOptions) -> float:
     """Return sqrt(area / vertices) in the unit frame, the unit of the lengths in `options`.
 
-    The area is that of the surface the points show, to some percent: a disk that reaches to the k-th neighbour of a
-    point holds k points' worth of area, however dense the points are there. (A sample does not hold its mesh.)
+    The area is that of the surface the points show, to some percent. (A sample does not hold its mesh.)
     """
-    offsets, known = _offsets(sample.surface_points.astype(np.float64), neighbors_of(sample))
-    squared_radii = np.einsum("nkc,nkc->nk", offsets, offsets).max(axis=1)
-    area = float((np.pi * squared_radii / np.maximum(known.sum(axis=1), 1)).sum())
+    area = area_shown(sample.surface_points.astype(np.float64), neighbors_of(sample))
     return float(np.sqrt(area / options.vertices))
 
 

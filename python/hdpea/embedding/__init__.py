@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from hdpea.embedding.direct import embed_directly
 from hdpea.embedding.embedded import Embedded
+from hdpea.embedding.learned import embed_learned
 from hdpea.errors import core_errors_translated
 from hdpea.frame import UnitFrame
 from hdpea.normals import oriented_surface
@@ -27,7 +28,7 @@ from hdpea.threads import limited_threads
 
 Embedder = Callable[[Surface, int, EmbeddingOptions, Callable[[float], bool]], Embedded]
 
-EMBEDDERS: dict[str, Embedder] = {"direct": embed_directly}
+EMBEDDERS: dict[str, Embedder] = {"direct": embed_directly, "learned": embed_learned}
 
 
 @dataclass(frozen=True)

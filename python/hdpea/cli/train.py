@@ -1,0 +1,112 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""``hdpea train``: a network from a dataset."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import click
+from click.core import ParameterSource
+
+from hdpea.cli.parameters import GroupedCommand, GroupedOption, quiet_option, setting_options
+from hdpea.network.options import CONFIGURATIONS
+from hdpea.settings import as_dict, filled
+from hdpea.training.options import PRESETS, TrainingOptions
+
+EPILOG = """\b
+Examples:
+  hdpea train dataset/ training/ --validation validation/
+  hdpea train dataset/ training/ --steps 100000     # goes on where it was stopped
+  torchrun --nproc-per-node 2 -m hdpea train dataset/ training/ --batch 2
+"""
+
+
+def _use_preset(ctx: click.Context, _: click.Parameter, name: str) -> str:
+    ctx.default_map = {key: value for stage in as_dict(PRESETS[name]).values() for key, value in stage.items()}
+    return name
+
+
+@click.command(cls=GroupedCommand, epilog=EPILOG, no_args_is_help=True, short_help="Train a network to embed.")
+@click.argument("dataset", type=click.Path(path_type=Path))
+@click.argument("out", type=click.Path(path_type=Path))
+@click.option(
+    "--also",
+    cls=GroupedOption,
+    type=click.Path(path_type=Path),
+    multiple=True,
+    help="a further dataset to train on, such as one of scans; may be given again",
+)
+@click.option(
+    "--validation",
+    cls=GroupedOption,
+    type=click.Path(path_type=Path),
+    help="dataset of which clouds are reconstructed every so often, to keep the best weights",
+)
+@click.option(
+    "--network",
+    cls=GroupedOption,
+    type=click.Choice(list(CONFIGURATIONS)),
+    default="compact",
+    show_default=True,
+    help="size of the network; base is the paper's",
+)
+@click.option(
+    "--preset",
+    cls=GroupedOption,
+    type=click.Choice(list(PRESETS)),
+    default="cpu",
+    show_default=True,
+    is_eager=True,
+    expose_value=False,
+    callback=_use_preset,
+    help="defaults of the flags below, shown for cpu; paper: the paper's",
+)
+@click.option("--tensorboard", cls=GroupedOption, is_flag=True, help="write for TensorBoard too, where it is installed")
+@quiet_option
+@setting_options("run", "crops", "loss", owner=TrainingOptions)
+@click.pass_context
+def command(
+    ctx: click.Context,
+    /,
+    *,
+    dataset: Path,
+    out: Path,
+    also: tuple[Path, ...],
+    validation: Path | None,
+    network: str,
+    tensorboard: bool,
+    quiet: bool,
+    **values: Any,
+) -> None:
+    """Train a network on DATASET, a folder that `hdpea dataset build` made, into the folder OUT.
+
+    OUT gets last.pt, from which the same command goes on where it was stopped, best.pt and best.safetensors with
+    the weights that reconstructed the validation clouds best, and metrics.jsonl. Ctrl-C saves and stops.
+
+    best.safetensors is what `hdpea reconstruct --embedding learned --weights` takes.
+    """
+    if ctx.get_parameter_source("steps") is ParameterSource.COMMANDLINE:
+        values["epochs"] = (
+            values["epochs"] if ctx.get_parameter_source("epochs") is ParameterSource.COMMANDLINE else None
+        )
+    options = filled(TrainingOptions, values)
+    from hdpea.dataset.loading import Dataset
+    from hdpea.outputs import check_output
+    from hdpea.training.journal import LAST
+    from hdpea.training.stopping import stop_requests
+    from hdpea.training.workers import joined_workers
+
+    datasets = [Dataset(folder) for folder in (dataset, *also)]
+    judged = Dataset(validation) if validation else None
+    out.mkdir(exist_ok=True) if out.parent.is_dir() else None
+    check_output(out / LAST, [".pt"])
+    from hdpea.training.joined import Joined
+    from hdpea.training.loop import train
+
+    def tell(line: str) -> None:
+        if not quiet:
+            click.echo(line, err=True)
+
+    with joined_workers() as workers, stop_requests() as stopped:
+        train(Joined(datasets), judged, out, CONFIGURATIONS[network], options, stopped, workers, tensorboard, tell)

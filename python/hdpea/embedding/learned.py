@@ -1,0 +1,66 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The learned embedding: a network gives psi at once."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hdpea import _core
+from hdpea.embedding.embedded import Embedded
+from hdpea.network.averaging import carried_over
+from hdpea.network.inference import predict_psi
+from hdpea.network.weights import read_weights, shipped_weights
+from hdpea.options import EmbeddingOptions
+from hdpea.report import Choice
+from hdpea.surface import NEIGHBORS, Surface, area_shown
+
+PER_VERTEX = (4.0, 12.0)
+"""Points for each vertex that training has seen: 20,000 to 60,000 for 5,000 vertices."""
+
+AREA_NEIGHBORS = 12
+"""Nearest points of the same sheet that the area is taken from, as the ground truth does."""
+
+
+def embed_learned(
+    surface: Surface, vertices: int, options: EmbeddingOptions, progress: Callable[[float], bool]
+) -> Embedded:
+    """Return the embedding [p, psi] of a surface by a trained network, at the scale of a mesh of so many `vertices`.
+
+    A cloud of many more points per vertex than training has seen is thinned before the network, and psi carried
+    over to all its points; one of fewer is embedded at the scale of a mesh that it could show.
+
+    Raises
+    ------
+    UnreadableInput
+        If the weights cannot be read.
+    Interrupted
+        If `progress` cancels.
+    """
+    points, normals, neighbors = surface.points_in_unit, surface.normals, surface.neighbors
+    path = Path(options.weights) if options.weights is not None else shipped_weights()
+    network = read_weights(path)
+    least, most = PER_VERTEX
+    shown = min(vertices, len(points) / least)
+    spacing = float(np.sqrt(area_shown(points, neighbors[:, :AREA_NEIGHBORS]) / shown))
+    kept = _thinned(len(points), most * shown)
+    if len(kept) < len(points):
+        points, normals = points[kept], normals[kept]
+        neighbors = _core.sheet_neighbors(points, normals, _core.nearest_neighbors(points, NEIGHBORS))
+    psi = predict_psi(network, points, normals, neighbors, spacing, options.whole_points, progress)
+    if len(kept) < len(surface.points_in_unit):
+        psi = carried_over(points, normals, neighbors, psi, surface.points_in_unit, surface.normals)
+    choices = (
+        Choice("metric_spacing", spacing * surface.frame.diagonal, "world units", f"that of {round(shown):,} vertices"),
+    )
+    return Embedded(np.hstack([surface.points_in_unit, psi]), choices)
+
+
+def _thinned(count: int, most: float) -> NDArray[np.int64]:
+    """Return rows, ascending: all of `count`, or `most` of them at random, always the same."""
+    if count <= most:
+        return np.arange(count)
+    return np.sort(np.random.default_rng(0).permutation(count)[: round(most)])

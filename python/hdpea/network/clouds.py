@@ -1,0 +1,121 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A batch of clouds, one after the other, as the network reads it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, fields
+
+import numpy as np
+import torch
+from numpy.typing import NDArray
+from torch import Tensor
+
+from hdpea import _core
+
+CURVATURE_RADIUS = 1.0
+"""Radius in which the shape operator is fitted, in spacings; as wide as that of the direct embedding."""
+
+
+@dataclass
+class Clouds:
+    """Clouds side by side; nothing is padded. Lengths are in spacings, sqrt(area / vertices) of the mesh to come.
+
+    Attributes
+    ----------
+    points
+        (n, 3) float32, relative to the centre of each cloud.
+    normals
+        (n, 3) float32, unit.
+    shape
+        (n, 6) float32: the shape operator (xx, yy, zz, xy, xz, yz), 1 / spacing.
+    neighbors
+        (n, k) int64: nearest points of the same sheet, nearest first; rows of the whole batch, -1 pads.
+    batch
+        (n,) int64, ascending: the cloud of each point.
+    """
+
+    points: Tensor
+    normals: Tensor
+    shape: Tensor
+    neighbors: Tensor
+    batch: Tensor
+
+    @classmethod
+    def of(cls, points: NDArray[np.float64], normals: NDArray[np.float64], neighbors: NDArray[np.int64]) -> Clouds:
+        """Return one cloud as a batch.
+
+        Parameters
+        ----------
+        points
+            (n, 3), in spacings.
+        normals
+            (n, 3), unit, consistently oriented.
+        neighbors
+            (n, k): nearest points of the same sheet, nearest first, -1 pads.
+        """
+        centred = centred_points(points)
+        return cls(
+            torch.from_numpy(centred.astype(np.float32)),
+            torch.from_numpy(normals.astype(np.float32)),
+            torch.from_numpy(shape_operators(centred, normals, neighbors).astype(np.float32)),
+            torch.from_numpy(neighbors),
+            torch.zeros(len(points), dtype=torch.int64),
+        )
+
+    @classmethod
+    def together(cls, clouds: Sequence[Clouds]) -> Clouds:
+        """Return the clouds of several batches as one batch."""
+        points = np.cumsum([0, *(len(each.points) for each in clouds)])
+        first = np.cumsum([0, *(int(each.batch[-1]) + 1 for each in clouds)])
+        shifted = [
+            torch.where(each.neighbors < 0, each.neighbors, each.neighbors + int(start))
+            for each, start in zip(clouds, points, strict=False)
+        ]
+        return cls(
+            torch.cat([each.points for each in clouds]),
+            torch.cat([each.normals for each in clouds]),
+            torch.cat([each.shape for each in clouds]),
+            torch.cat(shifted),
+            torch.cat([each.batch + int(start) for each, start in zip(clouds, first, strict=False)]),
+        )
+
+    def part(self, members: Tensor) -> Clouds:
+        """Return the points `members` (m,) int64 of one cloud, as one cloud about its own centre."""
+        place = torch.full((len(self.points),), -1, dtype=torch.int64, device=members.device)
+        place[members] = torch.arange(len(members), device=members.device)
+        neighbors = self.neighbors[members]
+        points = self.points[members]
+        lowest, highest = points.amin(dim=0), points.amax(dim=0)
+        return Clouds(
+            points - (lowest + (highest - lowest) / 2),
+            self.normals[members],
+            self.shape[members],
+            torch.where(neighbors < 0, neighbors, place[neighbors]),
+            self.batch[members],
+        )
+
+    def to(self, device: torch.device) -> Clouds:
+        """Return the batch on a device."""
+        return Clouds(*(getattr(self, each.name).to(device) for each in fields(self)))
+
+
+def centred_points(points: NDArray[np.floating]) -> NDArray[np.float64]:
+    """Return points (n, 3) relative to the middle of their bounding box, which no order of them changes."""
+    wide = np.asarray(points, np.float64)
+    lowest = wide.min(axis=0)
+    return np.ascontiguousarray(wide - (lowest + (wide.max(axis=0) - lowest) / 2))
+
+
+def shape_operators(
+    points: NDArray[np.float64], normals: NDArray[np.float64], neighbors: NDArray[np.int64]
+) -> NDArray[np.float64]:
+    """Return the shape operator (n, 6) of a cloud as ``Clouds.shape``, fitted within ``CURVATURE_RADIUS``."""
+    curvature = _core.estimate_curvature(points, normals, neighbors, CURVATURE_RADIUS)
+    first = curvature.direction1
+    second = np.cross(normals, first)
+    k1, k2 = curvature.principal.T[:, :, None]
+    rows, columns = (0, 1, 2, 0, 0, 1), (0, 1, 2, 1, 2, 2)
+    operators: NDArray[np.float64] = k1 * first[:, rows] * first[:, columns]
+    operators += k2 * second[:, rows] * second[:, columns]
+    return operators

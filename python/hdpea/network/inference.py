@@ -1,0 +1,95 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Psi of clouds by a trained network: at once, or in patches."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+import torch
+from numpy.typing import NDArray
+
+from hdpea.errors import Interrupted
+from hdpea.network.clouds import Clouds, centred_points
+from hdpea.network.patches import cut_patches, joined_psi
+from hdpea.network.transformer import PointTransformer
+from hdpea.options import EmbeddingOptions
+
+PATCH_POINTS = 30_000
+"""Points of a patch."""
+
+Array = NDArray[np.float64]
+
+
+def predict_psi(
+    network: PointTransformer,
+    points: Array,
+    normals: Array,
+    neighbors: NDArray[np.int64],
+    spacing: float,
+    whole_points: int = EmbeddingOptions.whole_points,
+    progress: Callable[[float], bool] = lambda _: True,
+) -> Array:
+    """Return the extra coordinates psi (n, 5) of points, in their own units.
+
+    Points are put in an order of their own first, so that theirs does not matter to the last bit.
+
+    Parameters
+    ----------
+    points
+        (n, 3), distinct.
+    normals
+        (n, 3), unit, consistently oriented.
+    neighbors
+        (n, k): nearest points of the same sheet, nearest first, -1 pads.
+    spacing
+        sqrt(area / vertices) of the mesh to come, in the points' units: the scale of the metric.
+    whole_points
+        Clouds of more points than this are embedded in patches.
+    progress
+        Is told the share that is done; False cancels.
+
+    Raises
+    ------
+    Interrupted
+        If `progress` cancels.
+    """
+    centred = centred_points(points) / spacing
+    order = canonical_order(centred)
+    place = np.empty_like(order)
+    place[order] = np.arange(len(order))
+    sorted_neighbors = np.where(neighbors < 0, neighbors, place[neighbors])[order]
+    clouds = Clouds.of(centred[order], normals[order], np.ascontiguousarray(sorted_neighbors))
+    if len(points) <= whole_points:
+        predicted = _run(network, clouds)
+    else:
+        predicted = _run_in_patches(network, centred[order], clouds, progress)
+    psi = np.empty(predicted.shape)
+    psi[order] = predicted * spacing
+    return psi
+
+
+def canonical_order(points: Array) -> NDArray[np.int64]:
+    """Return the order (n,) of points (n, 3) by z, y, x, whatever order they come in."""
+    return np.lexsort(points.T)
+
+
+def _run(network: PointTransformer, clouds: Clouds) -> Array:
+    was_training = network.training
+    network.eval()
+    with torch.no_grad():
+        psi = network(clouds.to(next(network.parameters()).device)).cpu().numpy()
+    network.train(was_training)
+    return np.asarray(psi, np.float64)
+
+
+def _run_in_patches(
+    network: PointTransformer, points: Array, clouds: Clouds, progress: Callable[[float], bool]
+) -> Array:
+    centres, patches = cut_patches(points, PATCH_POINTS)
+    psis = []
+    for number, patch in enumerate(patches):
+        if not progress(number / len(patches)):
+            raise Interrupted
+        psis.append(_run(network, clouds.part(torch.from_numpy(patch.members))))
+    return joined_psi(points, centres, patches, psis)

@@ -1,0 +1,79 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The first features of points: edge convolutions that see how normals turn, which is curvature."""
+
+from __future__ import annotations
+
+import torch
+from torch import Tensor, nn
+
+from hdpea.network.layers import rows
+
+EDGE_FEATURES = 13
+
+
+def edge_features(points: Tensor, normals: Tensor, neighbors: Tensor) -> Tensor:
+    """Return what there is to know of each edge to a neighbour.
+
+    The way there, the change of the normal, the normal itself; then what no rotation changes: the length, how
+    far the neighbour lies above the tangent plane, how far the point above the neighbour's, the normals' cosine.
+
+    Parameters
+    ----------
+    points, normals
+        (n, 3) float32; points in units of about the distance to the 6th neighbour.
+    neighbors
+        (n, k) int64.
+
+    Returns
+    -------
+    (n, k, 13) float32.
+    """
+    way = rows(points, neighbors) - points[:, None]  # (n, k, 3)
+    here, there = normals[:, None].expand_as(way), rows(normals, neighbors)
+    length = way.norm(dim=2, keepdim=True)
+    above = (way * here).sum(dim=2, keepdim=True)
+    below = (way * there).sum(dim=2, keepdim=True)
+    cosine = (here * there).sum(dim=2, keepdim=True)
+    return torch.cat([way, there - here, here, length, above, below, cosine], dim=2)
+
+
+class EdgeConvolution(nn.Module):
+    """Features of a point from those of its neighbours and the edges to them (Wang et al. 2019): mean and maximum."""
+
+    def __init__(self, inputs: int, channels: int) -> None:
+        super().__init__()
+        self.edge = nn.Linear(EDGE_FEATURES, channels)
+        # What depends on the neighbour alone is mapped before it is spread to the edges: k times less to do.
+        self.neighbor = nn.Linear(inputs, channels, bias=False) if inputs else None
+        self.mixed = nn.Sequential(nn.GELU(), nn.Linear(channels, channels), nn.GELU())
+        self.out = nn.Sequential(nn.Linear(2 * channels + inputs, channels), nn.LayerNorm(channels))
+
+    def forward(self, x: Tensor | None, edges: Tensor, neighbors: Tensor) -> Tensor:
+        """Map features (n, inputs), or none, and edges (n, k, 13) to (n, channels)."""
+        message = self.edge(edges)  # (n, k, c)
+        if self.neighbor is not None and x is not None:
+            message = message + rows(self.neighbor(x), neighbors)
+        message = self.mixed(message)
+        gathered = [message.mean(dim=1), message.amax(dim=1)]
+        mapped: Tensor = self.out(torch.cat(gathered if x is None else [*gathered, x], dim=1))
+        return mapped
+
+
+class EdgeStem(nn.Module):
+    """Two edge convolutions on the nearest `neighbors` points."""
+
+    def __init__(self, channels: int, neighbors: int) -> None:
+        super().__init__()
+        self.neighbors = neighbors
+        self.first = EdgeConvolution(0, channels)
+        self.second = EdgeConvolution(channels, channels)
+
+    def forward(self, points: Tensor, normals: Tensor, neighbors: Tensor) -> Tensor:
+        """Map points and normals (n, 3) with neighbours (n, k) to features (n, channels)."""
+        itself = torch.arange(len(points), device=points.device)[:, None]
+        nearest = neighbors[:, : self.neighbors]
+        nearest = torch.where(nearest < 0, itself, nearest)
+        edges = edge_features(points, normals, nearest)
+        x = self.first(None, edges, nearest)
+        mapped: Tensor = x + self.second(x, edges, nearest)
+        return mapped

@@ -1,0 +1,117 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Crops of clouds, each a function of the dataset, the seed and its number alone: training can go on anywhere."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+import torch
+from numpy.typing import NDArray
+
+from hdpea import _core
+from hdpea.dataset.augmentation import TRANSFORMS, random_rotation
+from hdpea.dataset.sample import Sample
+from hdpea.network.clouds import Clouds
+from hdpea.training.losses import Truth
+from hdpea.training.options import CropOptions
+
+ORDER, CROP = 0, 1
+"""What a stream of random numbers is for."""
+
+
+class Samples(Protocol):
+    """What training needs of a dataset."""
+
+    @property
+    def names(self) -> Sequence[str]:
+        """The samples, in an order that stays."""
+
+    def read(self, name: str) -> Sample:
+        """Read one."""
+
+    def spacing(self, name: str) -> float:
+        """Return the unit of the lengths of its ground truth, in unit length."""
+
+
+@dataclass
+class Crop:
+    """A part of a cloud as the network sees it, and what is true of it; n points."""
+
+    clouds: Clouds
+    truth: Truth
+
+    @classmethod
+    def together(cls, crops: Sequence[Crop]) -> Crop:
+        """Return crops as one batch; each counts the same, however many points it has."""
+        clouds = Clouds.together([each.clouds for each in crops])
+        joined = {
+            name: torch.cat([getattr(each.truth, name) for each in crops])
+            for name in ("points", "normals", "psi", "weights")
+        }
+        joined["weights"] /= len(crops)
+        starts = np.cumsum([0, *(len(each.truth.points) for each in crops)])
+        neighbors = [each.truth.neighbors + int(start) for each, start in zip(crops, starts, strict=False)]
+        return cls(clouds, Truth(neighbors=torch.cat(neighbors), **joined))
+
+    def to(self, device: torch.device) -> Crop:
+        """Return the crop on a device."""
+        return Crop(self.clouds.to(device), self.truth.to(device))
+
+
+def crop_number(number: int, samples: Samples, options: CropOptions, neighbors: int, seed: int) -> Crop:
+    """Return the crop of that number: in each epoch, every sample once, in an order of the epoch's own."""
+    epoch, place = divmod(number, len(samples.names))
+    order = np.random.default_rng((seed, ORDER, epoch)).permutation(len(samples.names))
+    name = samples.names[order[place]]
+    random = np.random.default_rng((seed, CROP, number))
+    return cut_crop(samples.read(name), samples.spacing(name), options, neighbors, random)
+
+
+def cut_crop(sample: Sample, spacing: float, options: CropOptions, neighbors: int, random: np.random.Generator) -> Crop:
+    """Cut, thin, turn and disturb a part of a sample, in spacings; with `neighbors` nearest points of each point."""
+    count = len(sample.points)
+    size = int(random.integers(options.least_points, options.most_points, endpoint=True))
+    density = random.integers(options.least_density, options.most_density, endpoint=True)
+    kept = np.flatnonzero(random.random(count) < density / count) if density < count else np.arange(count)
+    centre = sample.points[random.choice(kept)]
+    distances = np.linalg.norm(sample.points[kept] - centre, axis=1)
+    # From the centre outwards.
+    chosen = kept[np.argsort(distances, kind="stable")[:size]]
+    judged = len(chosen) if len(chosen) == len(kept) else int(len(chosen) * (1 - options.margin))
+
+    matrix = _orthogonal(options.rotations, random)
+    surface_points, points = (each[chosen] @ matrix.T / spacing for each in (sample.surface_points, sample.points))
+    true_normals = sample.normals[chosen] @ matrix.T
+    normals = true_normals
+    if sample.estimated_normals is not None and random.random() < options.estimated_share:
+        normals = sample.estimated_normals[chosen] @ matrix.T
+    if random.random() < options.noisy_share and np.array_equal(points, surface_points):
+        points = points + options.noise * random.random() ** 2 * random.standard_normal(points.shape)
+    if random.random() < options.tilted_share:
+        normals = normals + options.tilt * random.random() ** 2 * random.standard_normal(normals.shape)
+    normals = normals / np.linalg.norm(normals, axis=1, keepdims=True)
+    # The solver starts from the normal in the first three columns, so they turn with the cloud.
+    psi = np.hstack([sample.psi[chosen, :3] @ matrix.T, sample.psi[chosen, 3:]]) / spacing
+
+    nearest = _core.nearest_neighbors(points, min(neighbors, len(chosen) - 1))
+    clouds = Clouds.of(points, normals, _core.sheet_neighbors(points, normals, nearest))
+    weights = torch.zeros(len(chosen))
+    weights[:judged] = 1 / judged
+    truth = Truth(_tensor(surface_points), _tensor(true_normals), _tensor(psi), torch.from_numpy(nearest), weights)
+    return Crop(clouds, truth)
+
+
+def _tensor(array: NDArray[np.floating]) -> torch.Tensor:
+    return torch.from_numpy(np.ascontiguousarray(array, np.float32))
+
+
+def _orthogonal(kind: str, random: np.random.Generator) -> NDArray[np.float64]:
+    """Return a random orthogonal matrix (3, 3): of all, of the paper's ten, or the identity."""
+    if kind == "any":
+        # The negative of a rotation is a reflection.
+        return random_rotation(random) * float(random.choice([-1.0, 1.0]))
+    ten = list(TRANSFORMS.values())
+    return ten[random.integers(len(ten))] if kind == "ten" else TRANSFORMS["identity"]

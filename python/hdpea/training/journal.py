@@ -1,0 +1,88 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What a training leaves behind: its numbers, the state to go on from, the best weights so far."""
+
+from __future__ import annotations
+
+import json
+import time
+from collections.abc import Callable, Mapping
+from importlib import import_module
+from importlib.util import find_spec
+from pathlib import Path
+from typing import Any
+
+from hdpea.network.weights import write_weights
+from hdpea.training.crops import Samples
+from hdpea.training.steps import Training
+from hdpea.training.validation import validate
+
+LAST, BEST, WEIGHTS, METRICS = "last.pt", "best.pt", "best.safetensors", "metrics.jsonl"
+"""The files of a training: to go on from, the same when it was best, to use, to look at."""
+
+
+class Journal:
+    """Writes for a training into a folder; only the first of several processes writes."""
+
+    def __init__(self, training: Training, out: Path, board: bool, tell: Callable[[str], None]) -> None:
+        self.training, self.out, self.tell = training, out, tell
+        self.writes = training.workers.rank == 0
+        self._board = _tensorboard(out) if board and self.writes else None
+        self._begin()
+
+    def _begin(self) -> None:
+        self._sums: dict[str, float] = {}
+        self._count, self._since = 0, time.monotonic()
+
+    def add(self, parts: Mapping[str, float]) -> None:
+        """Take note of a step."""
+        self._count += 1
+        for name, value in parts.items():
+            self._sums[name] = self._sums.get(name, 0.0) + value
+
+    def write_means(self) -> None:
+        """Write the means of the steps since the last time."""
+        means = {name: value / self._count for name, value in self._sums.items()}
+        means["seconds_per_step"] = (time.monotonic() - self._since) / self._count
+        self._write(self.training.workers.mean(means))
+        self._begin()
+
+    def validate(self, validation: Samples) -> None:
+        """Reconstruct clouds from the averaged weights, write the scores, keep the weights if they are the best."""
+        training, started = self.training, time.monotonic()
+        # Spread over the names, which tell of families.
+        count = min(training.options.validation_clouds, len(validation.names))
+        names = [validation.names[place * len(validation.names) // count] for place in range(count)]
+        if self.writes and names:
+            samples = ((validation.read(name), validation.spacing(name)) for name in names)
+            scores = validate(training.averaged_network(), samples, training.options.validation_vertices)
+            self._write({f"validation_{name}": value for name, value in scores.items()})
+            if training.best is None or scores["score"] > training.best:
+                training.best = scores["score"]
+                self.save(BEST)
+                facts = {"step": str(training.step)} | {name: f"{value:.4g}" for name, value in scores.items()}
+                write_weights(self.out / WEIGHTS, training.averaged_network(), facts)
+        self._since += time.monotonic() - started
+
+    def save(self, name: str) -> None:
+        """Write a checkpoint."""
+        if self.writes:
+            self.training.checkpoint().write(self.out / name)
+
+    def _write(self, numbers: Mapping[str, float]) -> None:
+        if not self.writes:
+            return
+        with (self.out / METRICS).open("a") as file:
+            file.write(json.dumps({"step": self.training.step} | dict(numbers)) + "\n")
+        listed = "  ".join(f"{name} {value:.4g}" for name, value in numbers.items())
+        self.tell(f"step {self.training.step} of {self.training.steps}: {listed}")
+        if self._board is not None:
+            for name, value in numbers.items():
+                self._board.add_scalar(name, value, self.training.step)
+            self._board.flush()
+
+
+def _tensorboard(out: Path) -> Any:
+    """Return a writer for TensorBoard; None where it is not installed."""
+    if find_spec("tensorboard") is None:
+        return None
+    return import_module("torch.utils.tensorboard").SummaryWriter(out)

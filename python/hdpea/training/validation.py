@@ -1,0 +1,99 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What a network is worth: meshes of clouds it has not seen, made from its embedding, and how good they are."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hdpea import _core
+from hdpea.dataset.sample import Sample
+from hdpea.errors import CannotReconstruct
+from hdpea.frame import UnitFrame
+from hdpea.meshing import Mesh, extract_mesh
+from hdpea.network.inference import predict_psi
+from hdpea.network.transformer import PointTransformer
+from hdpea.particles import spread_particles
+from hdpea.refinement import refine_mesh
+from hdpea.surface import Surface
+from hdpea.tangents import tangent_bases
+
+CURVATURE_FLOOR = 1.0
+"""Curvature below which the surface counts as flat, 1 / unit length; as in the baselines' metrics."""
+
+RATIO_MAX = 10.0
+"""Largest ratio of the metric's stretches; likewise."""
+
+T3_WANTED, G_WANTED = 0.95, 0.77
+"""What a network is wanted to reach."""
+
+
+def validate(network: PointTransformer, samples: Iterable[tuple[Sample, float]], vertices: int) -> dict[str, float]:
+    """Return the mean scores of the meshes of so many `vertices` that the network makes of samples and their spacing.
+
+    Returns
+    -------
+    ``t3``: faces that three cells agree on, as a share of the faces, or of those that a closed mesh of so many
+    vertices has, if there are fewer; ``g``: quality under the true metric (1 is best);
+    ``boundary``: edges of one face; ``score``: what checkpoints are chosen by, the sum of t3 and g, of which each
+    counts only up to a little above what is wanted.
+    """
+    rows = [_scores(network, sample, spacing, vertices) for sample, spacing in samples]
+    means = {name: float(np.mean([row[name] for row in rows])) for name in rows[0]}
+    score = min(means["t3"] / T3_WANTED, 1.02) + min(means["g"] / G_WANTED, 1.1)
+    return means | {"score": score}
+
+
+def _scores(network: PointTransformer, sample: Sample, spacing: float, vertices: int) -> dict[str, float]:
+    points, normals = np.asarray(sample.points, np.float64), np.asarray(sample.normals, np.float64)
+    surface = Surface.of(UnitFrame(np.zeros(3), 1.0), points, normals / np.linalg.norm(normals, axis=1, keepdims=True))
+    try:
+        psi = predict_psi(network, points, surface.normals, surface.neighbors, spacing)
+        mesh = mesh_of_embedding(surface, psi, vertices)
+    except CannotReconstruct:
+        return {"t3": 0.0, "g": 0.0, "boundary": float("nan")}
+    check = _core.check_mesh(mesh.vertices_in_unit, mesh.faces)
+    return {
+        # Small pieces are dropped after the count, and what was dropped is no success.
+        "t3": min(mesh.statistics["t3_kept"], len(mesh.faces)) / max(len(mesh.faces), 2 * vertices - 4),
+        "g": float(metric_quality(mesh, sample).mean()),
+        "boundary": float(check.boundary_edges),
+    }
+
+
+def mesh_of_embedding(surface: Surface, psi: NDArray[np.float64], vertices: int) -> Mesh:
+    """Return the mesh that all stages after the embedding make of a surface of n points and psi (n, 5)."""
+    points = len(surface.points_in_unit)
+    coordinates = np.hstack([surface.points_in_unit, psi])
+    bases = tangent_bases(coordinates, surface.normals, surface.neighbors, points / vertices)
+    particles = spread_particles(coordinates, bases, surface.neighbors, min(vertices, points))
+    return refine_mesh(extract_mesh(particles, bases, surface), surface)
+
+
+def metric_quality(mesh: Mesh, sample: Sample) -> NDArray[np.float64]:
+    """Return the quality G (f,) of each face under the metric of the true curvature; 1 if equilateral there."""
+    nearest = _core.nearest_neighbors(
+        np.ascontiguousarray(sample.surface_points, np.float64), mesh.vertices_in_unit, 1
+    )[:, 0]
+    roots = _root_metrics(sample, nearest)[mesh.faces].mean(axis=1)  # (f, 3, 3)
+    corners = mesh.vertices_in_unit[mesh.faces]  # (f, 3, 3)
+    a, b, c = (np.einsum("fij,fj->fi", roots, corners[:, i] - corners[:, 0]) for i in range(3))
+    area = np.linalg.norm(np.cross(b - a, c - a), axis=1) / 2
+    edges = np.stack([np.linalg.norm(x - y, axis=1) for x, y in ((a, b), (b, c), (c, a))])  # (3, f)
+    half_perimeter = edges.sum(axis=0) / 2
+    quality: NDArray[np.float64] = 2 * np.sqrt(3) * area / np.maximum(half_perimeter * edges.max(axis=0), 1e-300)
+    return quality
+
+
+def _root_metrics(sample: Sample, index: NDArray[np.int64]) -> NDArray[np.float64]:
+    """Return sqrt(M) (m, 3, 3) of the true curvature at the points `index` (m,) of a sample."""
+    curvatures = np.maximum(np.abs(np.asarray(sample.curvatures[index], np.float64)), CURVATURE_FLOOR)
+    least = curvatures.max(axis=1, keepdims=True) / RATIO_MAX**2
+    curvatures = np.maximum(curvatures, least)
+    normal, first = (np.asarray(each[index], np.float64) for each in (sample.normals, sample.direction1))
+    frame = np.stack([first, np.cross(normal, first), normal], axis=2)  # (m, 3, 3), columns
+    stretches = np.sqrt(np.hstack([curvatures, curvatures.min(axis=1, keepdims=True)]))  # (m, 3)
+    roots: NDArray[np.float64] = frame * stretches[:, None] @ frame.transpose(0, 2, 1)
+    return roots
