@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from hdpea import _core
 
 CELL_NEIGHBORS = 40
-"""Nearest particles whose bisectors cut a cell: enough at borders, too, where half a disk is empty."""
+"""Nearest particles whose bisectors cut a cell: enough for disks of up to two mean distances."""
 
 
 PLANE_NEIGHBORS = 7

@@ -19,7 +19,7 @@ from hdpea.report import Choice
 from hdpea.surface import Surface
 from hdpea.triangles import mesh_area
 
-DISK_RADIUS = 2.2
+DISK_RADIUS = 1.8
 """Radius of the disks in mean distances of the particles in R^d."""
 
 MAX_CIRCUMRADIUS = 1.2
