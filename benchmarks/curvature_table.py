@@ -33,7 +33,7 @@ from hdpea.dataset.sampling import sample_surface
 from hdpea.embedding import EMBEDDERS
 from hdpea.embedding.embedded import Metric
 from hdpea.errors import HdpeaError
-from hdpea.options import EmbeddingOptions
+from hdpea.options import EmbeddingOptions, NormalOptions
 
 JET = "jet"
 CLEAR_RATIO = 1.5
@@ -55,10 +55,14 @@ class Errors:
 
 
 def options_of(method: str) -> CurvatureOptions:
-    """Return the defaults of a method: an embedding by its name, or jets."""
+    """Return the defaults of a method: an embedding by its name, or jets; but with the quickest orientation.
+
+    Which side is out changes signs, which are not compared, and finding it by winding number takes most of the time.
+    """
+    normals = NormalOptions(orient="mst")
     if method == JET:
-        return CurvatureOptions(EstimationOptions(method=JET))
-    return CurvatureOptions(embedding=EmbeddingOptions(embedding=method))
+        return CurvatureOptions(EstimationOptions(method=JET), normals)
+    return CurvatureOptions(normals=normals, embedding=EmbeddingOptions(embedding=method))
 
 
 def metric_of(tensors: CurvatureTensors) -> Metric:

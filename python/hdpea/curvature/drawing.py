@@ -65,7 +65,8 @@ def draw_curvature(path: Path, tensors: CurvatureTensors, size: tuple[int, int] 
     colors = np.repeat(glyphs.colors[facing], ball.n_points, axis=0)
     plotter.add_mesh(ellipsoids, scalars=colors, rgb=True, smooth_shading=True, ambient=0.35, diffuse=0.75)
     look_at(plotter, glyphs.centres @ view_from_unit.T, size)
-    legend = f"stretching ratio: blue 1, grey {glyphs.most**0.5:.2g}, red {glyphs.most:.2g} and more"
+    middle, most = f"{glyphs.most**0.5:.2g}", f"{glyphs.most:.2g}"
+    legend = f" stretching ratio: blue 1, pale {middle}, red {most} and more; dark grey: any direction"
     plotter.add_text(legend, position="lower_left", color="black", font_size=size[1] // 100)
     plotter.add_light(pyvista.Light(position=(-0.7, 1.0, 2.0), light_type="scene light"))
     plotter.enable_anti_aliasing("ssaa")

@@ -6,6 +6,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from importlib.util import find_spec
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -85,7 +86,9 @@ def _write_ply(path: Path, tensors: CurvatureTensors) -> None:
 
 
 def _write_npz(path: Path, tensors: CurvatureTensors) -> None:
-    np.savez(path, points=tensors.points, **arrays_of(tensors))
+    # Typed as anything, since numpy's types take names for its flags.
+    arrays: dict[str, Any] = {"points": tensors.points, **arrays_of(tensors)}
+    np.savez(path, **arrays)
 
 
 def _write_csv(path: Path, tensors: CurvatureTensors) -> None:
