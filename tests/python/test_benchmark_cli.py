@@ -174,6 +174,7 @@ def test_normals_are_the_true_ones_unless_they_are_to_be_estimated() -> None:
         ("poisson", {"depth": 5, "reduce": "fast"}, "fast_simplification"),
         ("poisson", {"depth": 5, "reduce": "quadric"}, "pymeshlab"),
         ("poisson", {"depth": 5, "reduce": "acvd"}, "pyacvd"),
+        ("poisson", {"depth": 5, "reduce": "mmg"}, "mmgpy"),
         ("ball_pivoting", {"reduce": "quadric"}, "pymeshlab"),
         ("co3ne", {"reduce": "cvt"}, "geogram"),
     ],
