@@ -153,7 +153,7 @@ def _suite(name: str, text: str, folder: Path, only: Sequence[str]) -> Suite:
         content["vertices"] = tuple(given) if isinstance(given, list) else (given,)
     options = SuiteOptions(**_known(content, SuiteOptions, f"The suite {name}"))
     inputs = tuple(_input(each, options) for each in tables["input"])
-    methods = tuple(_method(each) for each in _chosen(tables["method"], only, name))
+    methods = tuple(_method(each, folder) for each in _chosen(tables["method"], only, name))
     for kind, names in (("inputs", [each.name for each in inputs]), ("methods", [each.name for each in methods])):
         if len(set(names)) < len(names):
             raise UsageError(f"Two {kind} of the suite {name} have the same name.", "Give each a name of its own.")
@@ -180,8 +180,10 @@ def _chosen(tables: Sequence[dict[str, Any]], only: Sequence[str], suite: str) -
     return [table for table, name in zip(tables, names, strict=True) if not only or name in only]
 
 
-def _method(table: dict[str, Any]) -> SuiteMethod:
+def _method(table: dict[str, Any], folder: Path) -> SuiteMethod:
     method = table.pop("method", "")
+    if "path" in table:
+        table["path"] = str(folder / table["path"])  # from where the suite lies, as the folder of the meshes
     name = str(table.pop("name", method))
     made = SuiteMethod(name, method, table)
     made.options()  # what is wrong with it is said before the first run
