@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 
 from hdpea.benchmark import methods
-from hdpea.benchmark.suite import read_suite, shipped_suites
+from hdpea.benchmark.suite_file import read_suite, shipped_suites
 from hdpea.cli.benchmark import command
 from hdpea.errors import UnreadableInput, UsageError
 from hdpea.lengths import Length
