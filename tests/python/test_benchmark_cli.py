@@ -158,6 +158,14 @@ def test_clouds_are_the_same_again_and_in_world_units() -> None:
     assert np.std(noisy.points - clean.points) == pytest.approx(0.01 * 10 * 3**0.5, rel=0.1)
 
 
+def test_scans_see_the_outside() -> None:
+    pytest.importorskip("embreex")
+    given = SuiteInput("test", SampleOptions(kind="scan"), ScanOptions(2000, views=1), DegradationOptions())
+    scan = make_cloud(ball(radius=5), "ball", given, seed=0)
+    assert scan.points.shape == (2000, 3)
+    assert np.linalg.norm(scan.points.mean(axis=0)) > 1  # one side is missing
+
+
 def test_normals_are_the_true_ones_unless_they_are_to_be_estimated() -> None:
     true, estimated = cloud_of(), cloud_of(estimate=1)
     outward = true.points / np.linalg.norm(true.points, axis=1, keepdims=True)
