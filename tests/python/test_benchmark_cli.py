@@ -4,7 +4,9 @@
 from __future__ import annotations
 
 import re
+import sys
 from collections.abc import Callable
+from importlib import import_module
 from pathlib import Path
 
 import numpy as np
@@ -18,6 +20,7 @@ from hdpea.benchmark.running import Task, work
 from hdpea.benchmark.suite import SuiteInput
 from hdpea.cli import run
 from hdpea.dataset.options import DegradationOptions, SampleOptions, ScanOptions
+from hdpea.errors import UsageError
 from hdpea.reading import read_points
 from hdpea.reading.triangle_mesh import TriangleMesh
 
@@ -197,3 +200,12 @@ def test_methods_make_meshes_of_the_wanted_size(method: str, values: dict[str, o
     assert faces.max() == len(vertices) - 1
     assert abs(np.linalg.norm(vertices, axis=1) - 5).max() < 1
     assert made.peak_bytes > 10_000_000
+
+
+def test_a_missing_compiler_is_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    pytest.importorskip("geogram")
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
+    monkeypatch.setenv("PATH", "")
+    monkeypatch.delitem(sys.modules, "hdpea.benchmark.methods.geogram", raising=False)
+    with pytest.raises(UsageError, match=r"needs a C\+\+ compiler"):
+        import_module("hdpea.benchmark.methods.geogram")
