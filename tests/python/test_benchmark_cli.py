@@ -4,7 +4,9 @@
 from __future__ import annotations
 
 import re
+import sys
 from collections.abc import Callable
+from importlib import import_module
 from pathlib import Path
 
 import numpy as np
@@ -18,6 +20,7 @@ from hdpea.benchmark.running import Task, work
 from hdpea.benchmark.suite import SuiteInput
 from hdpea.cli import run
 from hdpea.dataset.options import DegradationOptions, SampleOptions, ScanOptions
+from hdpea.errors import UsageError
 from hdpea.reading import read_points
 from hdpea.reading.triangle_mesh import TriangleMesh
 
@@ -158,6 +161,14 @@ def test_clouds_are_the_same_again_and_in_world_units() -> None:
     assert np.std(noisy.points - clean.points) == pytest.approx(0.01 * 10 * 3**0.5, rel=0.1)
 
 
+def test_scans_see_the_outside() -> None:
+    pytest.importorskip("embreex")
+    given = SuiteInput("test", SampleOptions(kind="scan"), ScanOptions(2000, views=1), DegradationOptions())
+    scan = make_cloud(ball(radius=5), "ball", given, seed=0)
+    assert scan.points.shape == (2000, 3)
+    assert np.linalg.norm(scan.points.mean(axis=0)) > 1  # one side is missing
+
+
 def test_normals_are_the_true_ones_unless_they_are_to_be_estimated() -> None:
     true, estimated = cloud_of(), cloud_of(estimate=1)
     outward = true.points / np.linalg.norm(true.points, axis=1, keepdims=True)
@@ -174,6 +185,7 @@ def test_normals_are_the_true_ones_unless_they_are_to_be_estimated() -> None:
         ("poisson", {"depth": 5, "reduce": "fast"}, "fast_simplification"),
         ("poisson", {"depth": 5, "reduce": "quadric"}, "pymeshlab"),
         ("poisson", {"depth": 5, "reduce": "acvd"}, "pyacvd"),
+        ("poisson", {"depth": 5, "reduce": "mmg"}, "mmgpy"),
         ("ball_pivoting", {"reduce": "quadric"}, "pymeshlab"),
         ("co3ne", {"reduce": "cvt"}, "geogram"),
     ],
@@ -188,3 +200,12 @@ def test_methods_make_meshes_of_the_wanted_size(method: str, values: dict[str, o
     assert faces.max() == len(vertices) - 1
     assert abs(np.linalg.norm(vertices, axis=1) - 5).max() < 1
     assert made.peak_bytes > 10_000_000
+
+
+def test_a_missing_compiler_is_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    pytest.importorskip("geogram")
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
+    monkeypatch.setenv("PATH", "")
+    monkeypatch.delitem(sys.modules, "hdpea.benchmark.methods.geogram", raising=False)
+    with pytest.raises(UsageError, match=r"needs a C\+\+ compiler"):
+        import_module("hdpea.benchmark.methods.geogram")

@@ -14,10 +14,11 @@ import trimesh
 
 from hdpea.benchmark.curves import draw_curves
 from hdpea.benchmark.drawing import ERROR_COLORS, RED_FROM, error_colors, subdivided
+from hdpea.benchmark.means import FLOOR, best_of, means_of
 from hdpea.benchmark.record import Record, key_of, read_record, write_record
 from hdpea.benchmark.results import curves_of, results_in_markdown
 from hdpea.benchmark.suite import Quoted, Suite, SuiteInput, SuiteMethod, SuiteOptions
-from hdpea.benchmark.tables import FLOOR, best_of, markdown_table, means_of, write_csv
+from hdpea.benchmark.tables import markdown_table, write_csv
 from hdpea.dataset.options import DegradationOptions, SampleOptions, ScanOptions
 from hdpea.triangles import mesh_area
 

@@ -3,13 +3,15 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 from typing import Any
 
 import pytest
 
 from hdpea.benchmark import methods
-from hdpea.benchmark.suite import read_suite, shipped_suites
+from hdpea.benchmark.suite_file import read_suite, shipped_suites
+from hdpea.cli.benchmark import command
 from hdpea.errors import UnreadableInput, UsageError
 from hdpea.lengths import Length
 
@@ -74,6 +76,7 @@ def test_a_suite_says_what_to_run(tmp_path: Path) -> None:
     assert (ours.name, other.name, other.method) == ("hdpea", "made elsewhere", "folder")
     assert ours.options().refinement.refine is False
     assert ours.options().embedding.curvature_radius == Length(1, percent=True)
+    assert other.options().path == str(tmp_path / "else" / "{model}.ply")
     assert suite.quoted[0].chamfer == 0.5
 
 
@@ -95,6 +98,7 @@ def test_the_suites_that_come_with_hdpea_are_in_order(name: str) -> None:
     assert suite.options.title
     assert "hdpea" in [method.method for method in suite.methods]
     assert f"| `{name}` |" in DOCS
+    assert re.search(rf"\b{name}\b", str(command.help))
 
 
 @pytest.mark.parametrize(

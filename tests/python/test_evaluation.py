@@ -278,6 +278,13 @@ def test_of_points_less_is_known() -> None:
     assert (flat.to_result.rms, flat.to_result.max) == (0.25, 0.25)
 
 
+def test_a_result_in_another_frame_is_noted() -> None:
+    assert measured(square()).notes == ()
+    vertices, faces = square()
+    for elsewhere in (vertices + np.array([5, 0, 0]), 1000 * vertices):
+        assert "same frame" in " ".join(measured((elsewhere, faces)).notes)
+
+
 def test_surfaces_without_extent_are_refused() -> None:
     point = np.zeros((3, 3)), np.array([[0, 1, 2]])
     line = np.array([[0.0, 0, 0], [1, 0, 0], [2, 0, 0]]), np.array([[0, 1, 2]])

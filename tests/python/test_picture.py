@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from hdpea import picture
 from hdpea.errors import UsageError
-from hdpea.picture import check_drawing, draw_mesh
+from hdpea.picture import Camera, check_drawing, draw_mesh
 from hdpea.viewpoint import choose_view
 
 Mesh = tuple[NDArray[np.float64], NDArray[np.int64]]
@@ -92,3 +92,22 @@ def test_neither_screen_nor_osmesa_says_what_to_install(monkeypatch: pytest.Monk
 def test_other_formats_than_png_are_refused(tmp_path: Path) -> None:
     with pytest.raises(UsageError, match="extension"):
         draw_mesh(tmp_path / "mesh.pdf", *box((1, 1, 1)))
+
+
+@pytest.mark.slow
+def test_meshes_before_one_camera_keep_their_sizes_and_colours(tmp_path: Path) -> None:
+    large, small = box((2, 2, 2)), box((1, 1, 1))
+    red = np.tile(np.array([[200, 20, 20]], np.uint8), (len(small[0]), 1))
+    camera = Camera.before(*large)
+    draw_mesh(tmp_path / "large.png", *large, size=(200, 150), camera=camera)
+    draw_mesh(tmp_path / "small.png", *small, size=(200, 150), camera=camera, colors=red)
+    from PIL import Image
+
+    drawn_pixels = []
+    for name in ("large.png", "small.png"):
+        with Image.open(tmp_path / name) as image:
+            drawn_pixels.append(np.asarray(image.convert("RGB"), dtype=float))
+    areas = [(pixels < 250).any(axis=2).sum() for pixels in drawn_pixels]
+    assert areas[0] / areas[1] == pytest.approx(4, rel=0.05)
+    middle = drawn_pixels[1][75, 100]
+    assert middle[0] > 3 * middle[1:].max()

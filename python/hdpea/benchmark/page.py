@@ -10,9 +10,10 @@ from pathlib import Path
 
 from hdpea.benchmark.drawing import ERROR_COLORS, RED_FROM
 from hdpea.benchmark.gallery import Gallery
+from hdpea.benchmark.means import COLUMNS, TIME_TITLES, best_of, means_of
 from hdpea.benchmark.record import Record
 from hdpea.benchmark.suite import Suite
-from hdpea.benchmark.tables import COLUMNS, TIME_TITLES, best_of, cells_of, means_of, quoted_cells
+from hdpea.benchmark.tables import cells_of, quoted_cells
 from hdpea.outputs import replacing
 
 STYLE = """

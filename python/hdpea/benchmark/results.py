@@ -11,10 +11,11 @@ from pathlib import Path
 
 from hdpea.benchmark.curves import draw_curves
 from hdpea.benchmark.gallery import Gallery
+from hdpea.benchmark.means import COLUMNS, FLOOR, means_of
 from hdpea.benchmark.page import write_page
 from hdpea.benchmark.record import Record
 from hdpea.benchmark.suite import Suite
-from hdpea.benchmark.tables import COLUMNS, FLOOR, markdown_table, means_of, quoted_table, write_csv
+from hdpea.benchmark.tables import markdown_table, quoted_table, write_csv
 from hdpea.evaluation.normalization import NORMALIZATIONS
 from hdpea.outputs import replacing
 from hdpea.version import version

@@ -48,7 +48,7 @@ def command(*, suite: str, output: Path, meshes: str | None, methods: tuple[str,
     from hdpea.benchmark.benchmarking import run_suite
     from hdpea.benchmark.gallery import draw_gallery
     from hdpea.benchmark.results import write_results
-    from hdpea.benchmark.suite import read_suite
+    from hdpea.benchmark.suite_file import read_suite
     from hdpea.picture import check_drawing
 
     wanted = read_suite(suite, methods)

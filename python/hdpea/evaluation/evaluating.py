@@ -24,6 +24,11 @@ from hdpea.evaluation.truth import Truth, draw, seeds
 
 Rows = NDArray[np.float64]
 
+FAR_APART = 0.25
+"""Mean distance from the truth, in longest sides, that no reconstruction has."""
+
+STRANGERS = "The result is far from the truth: are both in the same frame and units?"
+
 
 def evaluate(vertices_in_world: Rows, faces: NDArray[np.int64], truth: Truth) -> Evaluation:
     """Measure a result, (v, 3), (f, 3), in the units of the truth; every vertex has a face.
@@ -50,7 +55,9 @@ def evaluate(vertices_in_world: Rows, faces: NDArray[np.int64], truth: Truth) ->
     }
     in_world = {name: unit * truth.longest_side for name, unit in units.items()}
     kind = "points" if truth.surface is None else "mesh"
-    return Evaluation(topology, triangles, accuracy, in_world, kind, len(truth.points), truth.options)
+    apart = max(way.rms for way in (to_result, to_truth) if way is not None)
+    notes = (STRANGERS,) if apart > FAR_APART else ()
+    return Evaluation(topology, triangles, accuracy, in_world, kind, len(truth.points), truth.options, notes)
 
 
 def _accuracy(

@@ -122,6 +122,8 @@ class Evaluation:
         How many points stand for the truth.
     options
         How the surfaces were sampled.
+    notes
+        Sentences on what is odd about the pair.
     """
 
     topology: Topology
@@ -131,6 +133,7 @@ class Evaluation:
     truth: str
     truth_points: int
     options: EvaluationOptions
+    notes: tuple[str, ...] = ()
 
     def as_dict(self) -> dict[str, Any]:
         """Return all of it, fit for JSON; lengths as shares of the unit, and that unit in world units."""
@@ -152,4 +155,5 @@ class Evaluation:
             "topology": asdict(self.topology),
             "triangles": asdict(self.triangles),
             "accuracy": accuracy,
+            "notes": list(self.notes),
         }

@@ -29,6 +29,7 @@ def _lines(evaluation: Evaluation) -> Iterator[str]:
     yield from _exact(both)
     yield ""
     yield from _triangles(evaluation.triangles)
+    yield from evaluation.notes
 
 
 def _samples(evaluation: Evaluation) -> str:

@@ -74,6 +74,7 @@ LIBRARIES_OF_REDUCTION = {
     "quadric": ("pymeshlab",),
     "acvd": ("pyacvd",),
     "cvt": GEOGRAM,
+    "mmg": ("mmgpy",),
     "none": (),
 }
 

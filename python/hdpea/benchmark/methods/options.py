@@ -8,6 +8,9 @@ from dataclasses import dataclass
 from hdpea.errors import UsageError
 from hdpea.options import Checked, option
 
+TOLERANCE = 0.01
+"""Share of the wanted vertices by which a mesh may miss them, as for hdpea itself."""
+
 
 @dataclass(frozen=True)
 class ReducedOptions(Checked):
@@ -16,8 +19,9 @@ class ReducedOptions(Checked):
     reduce: str = option(
         "fast",
         "fast: quadric edge collapse by fast-simplification; quadric: by MeshLab; acvd: centroidal Voronoi clusters "
-        "by pyacvd; cvt: anisotropic centroidal Voronoi remeshing by Geogram; none: not at all",
-        choices=("fast", "quadric", "acvd", "cvt", "none"),
+        "by pyacvd; cvt: anisotropic centroidal Voronoi remeshing by Geogram; mmg: anisotropic remeshing "
+        "by mmgs; none: not at all",
+        choices=("fast", "quadric", "acvd", "cvt", "mmg", "none"),
     )
 
 

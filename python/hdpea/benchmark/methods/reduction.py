@@ -7,14 +7,11 @@ import warnings
 
 import numpy as np
 
+from hdpea.benchmark.methods.options import TOLERANCE
 from hdpea.reading.triangle_mesh import TriangleMesh, drop_unused
 
 CLUSTERED_FROM = 20
 """Vertices for each cluster that pyacvd wants: a coarser mesh is subdivided first, as its makers advise."""
-
-
-TOLERANCE = 0.01
-"""Share of the wanted vertices by which a mesh may miss them, as for hdpea itself."""
 
 ATTEMPTS = 4
 """How often another number is asked for: methods count faces or clusters, and borders and handles change the ratio."""
@@ -25,6 +22,10 @@ def reduced(mesh: TriangleMesh, vertices: int, how: str) -> TriangleMesh:
     mesh = drop_unused(*mesh)
     if how == "none" or len(mesh[0]) <= vertices:
         return mesh
+    if how == "mmg":
+        from hdpea.benchmark.methods.mmg import adapted
+
+        return drop_unused(*adapted(mesh, vertices))
     asked = vertices
     for _ in range(ATTEMPTS):
         made = drop_unused(*_REDUCTIONS[how](mesh, asked))
@@ -78,4 +79,9 @@ def _faces_of(vertices: int) -> int:
     return 2 * vertices - 4
 
 
-_REDUCTIONS = {"fast": _collapsed_fast, "quadric": _collapsed_by_meshlab, "acvd": _clustered, "cvt": _remeshed}
+_REDUCTIONS = {
+    "fast": _collapsed_fast,
+    "quadric": _collapsed_by_meshlab,
+    "acvd": _clustered,
+    "cvt": _remeshed,
+}

@@ -1,0 +1,110 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Mean scores of the methods, by input and budget."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from hdpea.benchmark.record import Record
+from hdpea.benchmark.suite import Suite
+
+FLOOR = "floor"
+
+
+@dataclass(frozen=True)
+class Column:
+    """A column of the means: the path to its score, {unit} being the normalisation, and how it is written.
+
+    `better` is 1 where larger is better, -1 where smaller is, and 0 where neither.
+    """
+
+    title: str
+    path: str
+    scale: float = 1.0
+    digits: int = 3
+    better: int = 0
+    floor: str = ""
+    quoted: str = ""
+
+    def text(self, value: float | None) -> str:
+        """Return a value as it stands in the table."""
+        return "" if value is None else f"{self.scale * value:,.{self.digits}f}"
+
+
+def _between_samples(title: str, name: str, scale: float, digits: int, better: int) -> Column:
+    path = f"accuracy.{{unit}}.%s.{name}"
+    return Column(title, path % "samples", scale, digits, better, path % "floor", name)
+
+
+COLUMNS = (
+    Column("vertices", "topology.vertices", digits=0, quoted="vertices"),
+    Column("exact CD (1e-5)", "accuracy.{unit}.chamfer", 1e5, better=-1),
+    Column("exact HD (1e-2)", "accuracy.{unit}.hausdorff", 1e2, better=-1),
+    Column("G", "triangles.g", better=1, quoted="g"),
+    _between_samples("CD (1e-5)", "chamfer", 1e5, 3, -1),
+    _between_samples("F1", "f1", 1, 4, 1),
+    _between_samples("NC", "normal_consistency", 1, 4, 1),
+    _between_samples("HD (1e-2)", "hausdorff", 1e2, 3, -1),
+    Column("degenerate %", "triangles.degenerate", 100, 2, -1),
+    Column("manifold", "topology.manifold", digits=2, better=1),
+    Column("watertight", "topology.watertight", digits=2),
+)
+TIMES = (("seconds", 1.0, 1), ("cpu_seconds", 1.0, 1), ("peak_bytes", 1e-9, 2))
+TIME_TITLES = ("seconds", "CPU seconds", "GB")
+
+
+@dataclass(frozen=True)
+class Means:
+    """The mean scores of a method for one input and budget, over the models that every method finished.
+
+    `values` are by column, `times` as in ``TIMES``; `finished` and `tried` count models.
+    """
+
+    method: str
+    finished: int
+    tried: int
+    values: tuple[float | None, ...]
+    times: tuple[float | None, ...]
+
+
+def means_of(records: Sequence[Record], suite: Suite, given: str, vertices: int) -> list[Means]:
+    """Return a row for each method, and the floor; methods that finished nothing have no values."""
+    here = [each for each in records if (each.given, each.vertices) == (given, vertices)]
+    of_method = {
+        method.name: {each.model: each for each in here if each.method == method.name} for method in suite.methods
+    }
+    done = {name: {each.model for each in runs.values() if not each.failed} for name, runs in of_method.items()}
+    common = set.intersection(*[models for models in done.values() if models] or [set()])
+    unit = suite.options.normalization
+    rows = []
+    for name, runs in of_method.items():
+        counted = [runs[model] for model in sorted(common & done[name])]
+        values = tuple(_mean([each.score(column.path.format(unit=unit)) for each in counted]) for column in COLUMNS)
+        times = tuple(_mean([getattr(each, field) for each in counted]) for field, _, _ in TIMES)
+        rows.append(Means(name, len(done[name]), len(runs), values, times))
+    # The floor is the same in every record of a model.
+    finished = list({each.model: each for each in here if each.model in common and not each.failed}.values())
+    floors = tuple(
+        _mean([each.score(column.floor.format(unit=unit)) for each in finished]) if column.floor else None
+        for column in COLUMNS
+    )
+    return [*rows, Means(FLOOR, len(common), len(common), floors, (None,) * len(TIMES))] if finished else rows
+
+
+def _mean(values: Sequence[float | None]) -> float | None:
+    known = [each for each in values if each is not None]
+    return sum(known) / len(known) if known else None
+
+
+def best_of(means: Sequence[Means]) -> set[tuple[str, int]]:
+    """Return method and column of the best values, as they are written; none where all are the same."""
+    best = set()
+    methods = [row for row in means if row.method != FLOOR]
+    for i, column in enumerate(COLUMNS):
+        known = [row for row in methods if row.values[i] is not None]
+        texts = {row.method: column.text(row.values[i]) for row in known}
+        if column.better and len(set(texts.values())) > 1:
+            winner = max(known, key=lambda row: column.better * (row.values[i] or 0.0))
+            best |= {(name, i) for name, text in texts.items() if text == texts[winner.method]}
+    return best
