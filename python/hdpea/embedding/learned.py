@@ -10,7 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hdpea import _core
-from hdpea.embedding.embedded import Embedded
+from hdpea.dataset.options import GroundTruthOptions
+from hdpea.embedding.embedded import Embedded, Metric
 from hdpea.network.averaging import carried_over
 from hdpea.network.inference import predict_psi
 from hdpea.network.weights import read_weights, shipped_weights
@@ -56,7 +57,9 @@ def embed_learned(
     choices = (
         Choice("metric_spacing", spacing * surface.frame.diagonal, "world units", f"that of {round(shown):,} vertices"),
     )
-    return Embedded(np.hstack([surface.points_in_unit, psi]), choices)
+    truth = GroundTruthOptions()  # what networks are trained on, unless its options are changed
+    metric = Metric(truth.metric_scale * spacing, truth.max_stretch)
+    return Embedded(np.hstack([surface.points_in_unit, psi]), choices, metric)
 
 
 def _thinned(count: int, most: float) -> NDArray[np.int64]:
