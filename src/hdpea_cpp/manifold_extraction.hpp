@@ -8,8 +8,7 @@ namespace hdpea {
 
 /// What is refused when triangles are chosen from the candidates. Angles are in degrees.
 struct ExtractionOptions {
-  /// Largest angle between the normals of faces that share an edge, for T12: a pin of three faces around has 120.
-  double max_fold = 140;
+  double max_fold = 120;           ///< largest angle between the normals of faces that share an edge, for T12
   double max_normal_angle = 60;    ///< largest angle between a face's plane and the nearest of its points' planes
   double max_circumradius = 0;     ///< in R^d, same unit as the coordinates; 0: no limit
   Index min_component_faces = 16;  ///< smaller connected pieces are dropped, but never the largest
