@@ -94,6 +94,12 @@ def test_what_is_flat_or_round_has_no_directions(options: CurvatureOptions) -> N
         assert any("flat or round" in note for note in tensors.notes)
 
 
+def test_jets_do_not_take_noise_for_directions() -> None:
+    random = np.random.default_rng(0)
+    rough = np.column_stack([random.random((2_000, 2)), random.normal(0, 0.003, 2_000)])
+    assert estimate_curvature(rough, options=JET).determined.mean() < 0.1
+
+
 def test_jets_meet_noise_with_more_neighbors() -> None:
     points, normals = clouds.torus(8_000)
     noisy = points + np.random.default_rng(1).normal(0, 0.01, points.shape)
