@@ -96,8 +96,10 @@ def test_what_is_flat_or_round_has_no_directions(options: CurvatureOptions) -> N
 
 def test_jets_do_not_take_noise_for_directions() -> None:
     random = np.random.default_rng(0)
-    rough = np.column_stack([random.random((2_000, 2)), random.normal(0, 0.003, 2_000)])
-    assert estimate_curvature(rough, options=JET).determined.mean() < 0.1
+    rough = np.column_stack([random.random((4_000, 2)), random.normal(0, 0.002, 4_000)])
+    # At the border, where all neighbours lie to one side, the error is underestimated.
+    inside = (abs(rough[:, :2] - 0.5) < 0.3).all(axis=1)
+    assert estimate_curvature(rough, options=JET).determined[inside].mean() < 0.05
 
 
 def test_jets_meet_noise_with_more_neighbors() -> None:
