@@ -16,7 +16,7 @@ from hdpea.surface import Surface
 SURE = 0.1
 """Standard error of the directions, in radians, up to which they are determined, and a jet needs no more neighbours.
 
-Twice as much would take noise for directions at one point in seven of a plane, for normal errors."""
+At half as much again, 5 % of the points of a noisy plane would have directions that are none."""
 
 SURELY_FLAT = 0.25
 """Standard error of the curvatures, in 1 / unit length, at which it needs none either: what bends less looks flat."""
