@@ -94,6 +94,14 @@ def test_what_is_flat_or_round_has_no_directions(options: CurvatureOptions) -> N
         assert any("flat or round" in note for note in tensors.notes)
 
 
+def test_jets_do_not_take_noise_for_directions() -> None:
+    random = np.random.default_rng(0)
+    rough = np.column_stack([random.random((4_000, 2)), random.normal(0, 0.002, 4_000)])
+    # At the border, where all neighbours lie to one side, the error is underestimated.
+    inside = (abs(rough[:, :2] - 0.5) < 0.3).all(axis=1)
+    assert estimate_curvature(rough, options=JET).determined[inside].mean() < 0.05
+
+
 def test_jets_meet_noise_with_more_neighbors() -> None:
     points, normals = clouds.torus(8_000)
     noisy = points + np.random.default_rng(1).normal(0, 0.01, points.shape)

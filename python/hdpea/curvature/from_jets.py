@@ -14,16 +14,15 @@ from hdpea.report import Choice
 from hdpea.surface import Surface
 
 SURE = 0.1
-"""Standard error of the directions, in radians, at which a jet needs no more neighbours."""
+"""Standard error of the directions, in radians, up to which they are determined, and a jet needs no more neighbours.
+
+At half as much again, 5 % of the points of a noisy plane would have directions that are none."""
 
 SURELY_FLAT = 0.25
 """Standard error of the curvatures, in 1 / unit length, at which it needs none either: what bends less looks flat."""
 
 FEW_UNSURE = 0.05
 """Share of unsure points that a clean cloud may have, at creases; with more, it is noisy."""
-
-DETERMINED = 0.25
-"""Largest standard error of the directions in radians: 15 degrees."""
 
 ROUND = 0.05
 """Difference of the curvatures, as a share of the larger, up to which all directions are principal ones."""
@@ -42,7 +41,7 @@ def estimate_from_jets(surface: Surface, metric: Metric, neighbors: int | None) 
     bend = _bend(jets)
     least_bend = np.maximum(ROUND * abs(curvatures[:, 0]), FLAT)
     # Comparisons with NaN are false: what is unknown is not determined.
-    determined: NDArray[np.bool_] = (bend >= least_bend) & (jets.curvature_error <= DETERMINED * bend)
+    determined: NDArray[np.bool_] = (bend >= least_bend) & (jets.curvature_error <= SURE * bend)
     choices: tuple[Choice, ...] = ()
     if neighbors is None:
         many = float((jets.fitted > JET_NEIGHBORS).mean())
