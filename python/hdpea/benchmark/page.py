@@ -102,7 +102,7 @@ def _gallery(suite: Suite, records: Sequence[Record], gallery: Gallery) -> Itera
     yield (
         "<p>Error, from the surface of the result to the truth: 0 "
         f'<span class="scale" style="background: linear-gradient(to right, {colors})"></span> '
-        f"{100 * RED_FROM:g} % of the longest side and more. Brown: the inward side of a face. A click enlarges.</p>"
+        f"{100 * RED_FROM:g} % of the longest side and more. Brown: the inside of a face. A click enlarges.</p>"
     )
     for model, truth in gallery.truths.items():
         for given in suite.inputs:
