@@ -19,7 +19,8 @@ from hdpea.outputs import replacing
 STYLE = """
 body { font: 15px/1.45 system-ui, sans-serif; margin: 2rem auto; max-width: 1500px; padding: 0 1rem; color: #1f2937 }
 h1 { margin-bottom: 0 } h2 { margin-top: 2.2rem; border-bottom: 1px solid #d1d5db } p.small { color: #6b7280 }
-table { border-collapse: collapse; font-size: 13px; font-variant-numeric: tabular-nums; display: block; overflow-x: auto }
+table { border-collapse: collapse; font-size: 13px; font-variant-numeric: tabular-nums }
+table { display: block; overflow-x: auto }
 th, td { padding: .25rem .45rem; text-align: right; border-bottom: 1px solid #e5e7eb; white-space: nowrap }
 th:first-child, td:first-child { text-align: left } td.best { font-weight: 700; color: #15803d }
 .row { display: flex; gap: .6rem; overflow-x: auto } figure { margin: 0; flex: 0 0 230px }
