@@ -196,7 +196,8 @@ def test_methods_make_meshes_of_the_wanted_size(method: str, values: dict[str, o
     method_options(method, values)
     made = work(Task(cloud_of(), method, values, 200))
     vertices, faces = made.mesh
-    assert len(vertices) == pytest.approx(200, rel=0.02)
+    # mmgs takes a metric and not a number of vertices, and answers in steps.
+    assert len(vertices) == pytest.approx(200, rel=0.05 if library == "mmgpy" else 0.02)
     assert faces.max() == len(vertices) - 1
     assert abs(np.linalg.norm(vertices, axis=1) - 5).max() < 1
     assert made.peak_bytes > 10_000_000

@@ -19,8 +19,9 @@ from hdpea.outputs import replacing
 STYLE = """
 body { font: 15px/1.45 system-ui, sans-serif; margin: 2rem auto; max-width: 1500px; padding: 0 1rem; color: #1f2937 }
 h1 { margin-bottom: 0 } h2 { margin-top: 2.2rem; border-bottom: 1px solid #d1d5db } p.small { color: #6b7280 }
-table { border-collapse: collapse; font-variant-numeric: tabular-nums; display: block; overflow-x: auto }
-th, td { padding: .25rem .6rem; text-align: right; border-bottom: 1px solid #e5e7eb; white-space: nowrap }
+table { border-collapse: collapse; font-size: 13px; font-variant-numeric: tabular-nums }
+table { display: block; overflow-x: auto }
+th, td { padding: .25rem .45rem; text-align: right; border-bottom: 1px solid #e5e7eb; white-space: nowrap }
 th:first-child, td:first-child { text-align: left } td.best { font-weight: 700; color: #15803d }
 .row { display: flex; gap: .6rem; overflow-x: auto } figure { margin: 0; flex: 0 0 230px }
 figure img { width: 230px; height: 230px; cursor: zoom-in; border: 1px solid #e5e7eb; display: block }
@@ -102,7 +103,7 @@ def _gallery(suite: Suite, records: Sequence[Record], gallery: Gallery) -> Itera
     yield (
         "<p>Error, from the surface of the result to the truth: 0 "
         f'<span class="scale" style="background: linear-gradient(to right, {colors})"></span> '
-        f"{100 * RED_FROM:g} % of the longest side and more. A click enlarges.</p>"
+        f"{100 * RED_FROM:g} % of the longest side and more. Brown: the inside of a face. A click enlarges.</p>"
     )
     for model, truth in gallery.truths.items():
         for given in suite.inputs:

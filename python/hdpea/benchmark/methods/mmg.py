@@ -1,39 +1,60 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Anisotropic remeshing by mmgs (Dapogny et al., 2014), which makes a metric of curvature and of a largest error.
-
-It takes that error and not a number of vertices: the error is sought by bisection.
-"""
+"""Anisotropic remeshing by mmgs (Dapogny et al., 2014), to the curvature metric of the surface it is given."""
 
 from __future__ import annotations
 
 import mmgpy
 import numpy as np
+from numpy.typing import NDArray
 
-from hdpea.benchmark.methods.options import TOLERANCE
+from hdpea import _core
+from hdpea.benchmark.methods.options import ATTEMPTS, TOLERANCE
+from hdpea.dataset.options import SamplingOptions
+from hdpea.dataset.sampling import sample_surface
+from hdpea.evaluation.curvature_metric import SAMPLES, curvature_metric
 from hdpea.reading.triangle_mesh import TriangleMesh, drop_unused
+from hdpea.triangles import mesh_area
 
-ERRORS = (1e-5, 0.1)
-"""Errors, in diagonals, between which the one for the wanted number of vertices is sought."""
+GRADATION = 2.3
+"""Most that sizes grow by from edge to edge; mmg's own 1.3 puts small numbers of vertices out of reach."""
 
-ATTEMPTS = 10
-
-SHORTEST = 1e-3
-"""Edge, in diagonals."""
+SHORTEST, LONGEST, ERROR = 1e-4, 2.0, 1.0
+"""Edges, in longest sides of the box, and an error so large that the metric alone counts."""
 
 
 def adapted(mesh: TriangleMesh, vertices: int) -> TriangleMesh:
-    """Return the surface (v, 3), (f, 3) remeshed to about so many vertices, by the metric of its own curvature."""
-    diagonal = float(np.linalg.norm(np.ptp(mesh[0], axis=0)))
-    low, high = (np.log(each) for each in ERRORS)
-    made = mesh
+    """Return the surface (v, 3), (f, 3) remeshed to about so many vertices.
+
+    The metric is that of G (``hdpea.evaluation.curvature_metric``), of this surface, scaled to the number.
+    """
+    low, high = mesh[0].min(axis=0), mesh[0].max(axis=0)
+    centre, longest = (low + high) / 2, float((high - low).max())
+    placed = np.ascontiguousarray((mesh[0] - centre) / longest)
+    tensors, area = _metric_at_vertices((placed, mesh[1]))
+    asked = vertices
     for _ in range(ATTEMPTS):
-        error = float(np.exp((low + high) / 2))
-        remesher = mmgpy.MmgMeshS(mesh[0], mesh[1].astype(np.int32))
-        # Without the limit on how sizes grow from edge to edge: with it, small budgets are out of reach.
-        remesher.remesh(hausd=error * diagonal, hmin=SHORTEST * diagonal, hgrad=-1.0, anisosize=1, verbose=-1)
-        made = np.asarray(remesher.get_vertices(), np.float64), np.asarray(remesher.get_triangles(), np.int64)
-        excess = len(drop_unused(*made)[0]) / vertices - 1
-        if abs(excess) <= TOLERANCE:
+        # Each vertex has two equilateral triangles of area 1 / asked under the metric: of this edge, squared.
+        squared_edge = 2 / 3**0.5 * area / asked
+        remesher = mmgpy.MmgMeshS(placed, mesh[1].astype(np.int32))
+        remesher.set_field("tensor", tensors / squared_edge)
+        remesher.remesh(hausd=ERROR, hmin=SHORTEST, hmax=LONGEST, hgrad=GRADATION, verbose=-1)
+        made, faces = drop_unused(
+            np.asarray(remesher.get_vertices(), np.float64), np.asarray(remesher.get_triangles(), np.int64)
+        )
+        missed = vertices / len(made)
+        if abs(missed - 1) <= TOLERANCE:
             break
-        low, high = ((low + high) / 2, high) if excess > 0 else (low, (low + high) / 2)
-    return made
+        asked = max(round(asked * missed), 4)
+    return made * longest + centre, faces
+
+
+def _metric_at_vertices(surface: TriangleMesh) -> tuple[NDArray[np.float64], float]:
+    """Return the tensors (v, 6), xx, xy, xz, yy, yz and zz, and the area of the surface under them."""
+    drawn = sample_surface(*surface, SamplingOptions(points=SAMPLES))
+    metric = curvature_metric(drawn.points, drawn.normals, mesh_area(*surface))
+    roots = metric.roots[_core.nearest_neighbors(metric.points, surface[0], 1)[:, 0]]
+    # The smaller tangential stretch is the normal's too: the two largest are those that areas grow by.
+    stretches = np.linalg.eigvalsh(metric.roots)[:, 1:].prod(axis=1)
+    squares = np.einsum("nij,njk->nik", roots, roots)
+    rows, columns = np.triu_indices(3)
+    return np.ascontiguousarray(squares[:, rows, columns]), float(stretches.mean()) * mesh_area(*surface)

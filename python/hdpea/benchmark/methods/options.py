@@ -11,6 +11,9 @@ from hdpea.options import Checked, option
 TOLERANCE = 0.01
 """Share of the wanted vertices by which a mesh may miss them, as for hdpea itself."""
 
+ATTEMPTS = 4
+"""How often another number is asked for: methods count faces or clusters, and borders and handles change the ratio."""
+
 
 @dataclass(frozen=True)
 class ReducedOptions(Checked):

@@ -7,14 +7,11 @@ import warnings
 
 import numpy as np
 
-from hdpea.benchmark.methods.options import TOLERANCE
+from hdpea.benchmark.methods.options import ATTEMPTS, TOLERANCE
 from hdpea.reading.triangle_mesh import TriangleMesh, drop_unused
 
 CLUSTERED_FROM = 20
 """Vertices for each cluster that pyacvd wants: a coarser mesh is subdivided first, as its makers advise."""
-
-ATTEMPTS = 4
-"""How often another number is asked for: methods count faces or clusters, and borders and handles change the ratio."""
 
 
 def reduced(mesh: TriangleMesh, vertices: int, how: str) -> TriangleMesh:
