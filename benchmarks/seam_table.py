@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Seams: how well the patches of a large cloud (PMEI) join, beside the same cloud embedded at once.
 
-    python benchmarks/seam_table.py MESH [--points 250000] [--weights FILE]
+    python benchmarks/seam_table.py MESH WEIGHTS [--points 250000]
 
 Distances in R^8 to the 12 nearest of the same sheet are compared with the true ones, those of the true embedding of
 MESH at the scale of the mesh to come: across the borders of patches, and inside of them. The seam is the error across
@@ -25,7 +25,7 @@ from hdpea.dataset.sampling import sample_surface
 from hdpea.embedding.learned import AREA_NEIGHBORS
 from hdpea.network.inference import PATCH_POINTS, canonical_order, predict_psi
 from hdpea.network.patches import cut_patches
-from hdpea.network.weights import read_weights, shipped_weights
+from hdpea.network.weights import read_weights
 from hdpea.options import POINTS_PER_VERTEX
 from hdpea.surface import Surface, area_shown
 
@@ -62,9 +62,9 @@ def relative_errors(found: Array, true: Array, across: NDArray[np.bool_]) -> tup
 
 @click.command()
 @click.argument("mesh", type=click.Path(exists=True, path_type=Path))
+@click.argument("weights", type=click.Path(exists=True, path_type=Path))
 @click.option("--points", default=250_000, show_default=True)
-@click.option("--weights", type=click.Path(exists=True, path_type=Path), help="instead of those that come along")
-def main(*, mesh: Path, points: int, weights: Path | None) -> None:
+def main(*, mesh: Path, weights: Path, points: int) -> None:
     """Compare the embedding of points of MESH in patches with that at once, and both with the truth."""
     vertices, faces = read_mesh(mesh)
     truth = embed_mesh(vertices, faces, GroundTruthOptions(vertices=points // POINTS_PER_VERTEX))
@@ -73,7 +73,7 @@ def main(*, mesh: Path, points: int, weights: Path | None) -> None:
     true = distances(surface, truth.at(samples.points).psi)
     area = area_shown(samples.points, surface.neighbors[:, :AREA_NEIGHBORS])
     spacing = float(np.sqrt(area * POINTS_PER_VERTEX / points))
-    network = read_weights(weights or shipped_weights())
+    network = read_weights(weights)
     across = across_borders(surface)
     click.echo(f"{mesh.stem}, {points:,} points, {across.mean():.1%} of the pairs across borders\n")
     click.echo("| embedded | error across | error inside | seam | seconds | peak memory, MB |")

@@ -205,7 +205,7 @@ def print_report(ours: list[Row], rivals: list[Row]) -> None:
     show_default=True,
     help=f"as of hdpea reconstruct, or one to compare with: {', '.join(REFERENCES)}",
 )
-@click.option("--weights", help="of the learned embedding, instead of those that come along")
+@click.option("--weights", help="of the learned embedding")
 @click.option("--refine/--no-refine", default=True, show_default=True)
 @click.option("--jobs", default=1, show_default=True, help="meshes at a time; more than 1 spoils the seconds")
 @click.option("--save", type=click.Path(path_type=Path), help="folder for the meshes and scores.csv")

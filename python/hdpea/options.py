@@ -89,7 +89,7 @@ class EmbeddingOptions(Checked):
         "direct: solved for on this cloud; learned: by a trained network, at once",
         choices=("direct", "learned"),
     )
-    weights: str | None = option(None, "file of the network's weights, for learned; default: those that come along")
+    weights: str | None = option(None, "learned: file of the network's weights, as `hdpea train` writes it")
     whole_points: int = option(
         80_000, "learned: clouds of more points are embedded in patches that are joined (PMEI)", minimum=1
     )
@@ -102,6 +102,14 @@ class EmbeddingOptions(Checked):
     )
     metric_scale: float = option(0.5, "direct: c of the metric s^2 = c |k|: larger stretches more", minimum=0)
     max_stretch: float = option(8.0, "direct: largest stretch of the metric in any direction", minimum=1)
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        if (self.embedding == "learned") != (self.weights is not None):
+            raise UsageError(
+                "The learned embedding needs weights, and no other does.",
+                "Give --embedding learned --weights FILE; `hdpea train` writes best.safetensors.",
+            )
 
 
 @dataclass(frozen=True)

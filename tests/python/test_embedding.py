@@ -4,16 +4,20 @@
 from __future__ import annotations
 
 from dataclasses import fields
+from pathlib import Path
 
 import clouds
 import numpy as np
 import pytest
+from networks import TINY
 
 from hdpea import _core, embed_points
 from hdpea.embedding import EMBEDDERS, Embedding, embed_surface
 from hdpea.embedding.direct import triangle_soup
 from hdpea.errors import Interrupted, UsageError
 from hdpea.lengths import Length
+from hdpea.network.transformer import PointTransformer
+from hdpea.network.weights import write_weights
 from hdpea.normals import oriented_surface
 from hdpea.options import EmbeddingOptions, MeshingOptions, Options
 from hdpea.surface import Surface
@@ -42,9 +46,13 @@ def distances_across(coordinates: clouds.Array) -> clouds.Array:
 
 @pytest.mark.parametrize("name", EMBEDDERS)
 @pytest.mark.parametrize("shape", ["torus", "plane"])
-def test_an_embedding_extends_the_points_by_five_finite_columns(name: str, shape: str) -> None:
+def test_an_embedding_extends_the_points_by_five_finite_columns(name: str, shape: str, tmp_path: Path) -> None:
     surface = surface_of(getattr(clouds, shape)(1500))
-    embedded = embed_surface(surface, 200, EmbeddingOptions(embedding=name))
+    options = EmbeddingOptions()
+    if name == "learned":
+        write_weights(tmp_path / "tiny.safetensors", PointTransformer(TINY))
+        options = EmbeddingOptions(embedding=name, weights=str(tmp_path / "tiny.safetensors"))
+    embedded = embed_surface(surface, 200, options)
     assert embedded.coordinates.shape == (1500, 8)
     assert np.isfinite(embedded.coordinates).all()
     np.testing.assert_array_equal(embedded.coordinates[:, :3], surface.points_in_unit)

@@ -13,6 +13,7 @@ from networks import TINY, neighbors_of
 from hdpea import _core
 from hdpea.embedding.embedded import Embedded
 from hdpea.embedding.learned import embed_learned
+from hdpea.errors import UsageError
 from hdpea.frame import UnitFrame
 from hdpea.network.averaging import carried_over
 from hdpea.network.transformer import PointTransformer
@@ -79,3 +80,9 @@ def test_reconstruction_by_a_network_that_knows_nothing_is_still_a_manifold(weig
     assert result.report.mesh is not None
     assert result.report.mesh.manifold
     assert [each.name for each in result.report.choices if each.name == "metric_spacing"]
+
+
+@pytest.mark.parametrize("wrong", [{"embedding": "learned"}, {"weights": "some.safetensors"}])
+def test_weights_belong_to_the_learned_embedding_and_to_no_other(wrong: dict[str, str]) -> None:
+    with pytest.raises(UsageError, match="needs weights"):
+        EmbeddingOptions(**wrong)

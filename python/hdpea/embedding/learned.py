@@ -14,7 +14,7 @@ from hdpea.dataset.options import GroundTruthOptions
 from hdpea.embedding.embedded import Embedded, Metric
 from hdpea.network.averaging import carried_over
 from hdpea.network.inference import predict_psi
-from hdpea.network.weights import read_weights, shipped_weights
+from hdpea.network.weights import read_weights
 from hdpea.options import EmbeddingOptions
 from hdpea.report import Choice
 from hdpea.surface import NEIGHBORS, Surface, area_shown
@@ -42,8 +42,7 @@ def embed_learned(
         If `progress` cancels.
     """
     points, normals, neighbors = surface.points_in_unit, surface.normals, surface.neighbors
-    path = Path(options.weights) if options.weights is not None else shipped_weights()
-    network = read_weights(path)
+    network = read_weights(Path(options.weights or ""))
     least, most = PER_VERTEX
     shown = min(vertices, len(points) / least)
     spacing = float(np.sqrt(area_shown(points, neighbors[:, :AREA_NEIGHBORS]) / shown))

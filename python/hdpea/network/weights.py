@@ -6,7 +6,6 @@ from __future__ import annotations
 import json
 from collections.abc import Mapping
 from dataclasses import asdict
-from importlib.resources import files
 from pathlib import Path
 from typing import Any
 
@@ -21,9 +20,6 @@ from hdpea.outputs import replacing
 
 FORMAT = "1"
 """Counts up whenever the meaning of the weights changes: layers, inputs, outputs."""
-
-SHIPPED = "compact.safetensors"
-"""The weights in the package, beside this module."""
 
 _HINT = "Weights are a safetensors file that `hdpea train` of this version wrote."
 
@@ -64,11 +60,6 @@ def read_weights(path: Path) -> PointTransformer:
     except RuntimeError as error:
         raise UnreadableInput(f"The weights in {path} do not fit the network that it names.", _HINT) from error
     return network.eval()
-
-
-def shipped_weights() -> Path:
-    """Return where the weights lie that come with the package."""
-    return Path(str(files("hdpea.network") / SHIPPED))
 
 
 def _options(path: Path, metadata: Mapping[str, str]) -> NetworkOptions:
