@@ -40,7 +40,8 @@ struct ExtractedMesh {
 /// T3 first, then T12, best first: seen twice before once, then by circumradius in R^d. A T12 triangle must
 /// share two edges with the mesh, or one and bring a vertex that has no face yet; sweeps repeat until none
 /// enters, and then once more with those that share one edge and reach a vertex of another piece: on parts so
-/// thin that few cells agree, they join the fragments. Then small components are dropped and pinched vertices split. Borders stay open.
+/// thin that few cells agree, they join the fragments. Then small components are dropped and pinched vertices split.
+/// Borders stay open.
 ///
 /// @param coordinates  (n, d) seeds; their first three columns are positions in R^3
 /// @param normals      (n, 3) unit; their signs only decide which side of a whole component is out

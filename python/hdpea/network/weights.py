@@ -64,7 +64,9 @@ def read_weights(path: Path) -> PointTransformer:
 
 def _options(path: Path, metadata: Mapping[str, str]) -> NetworkOptions:
     try:
-        values: Mapping[str, Any] = json.loads(metadata["network"])
-        return NetworkOptions(**{name: tuple(it) if isinstance(it, list) else it for name, it in values.items()})
+        values: dict[str, Any] = json.loads(metadata["network"])
+        # JSON has lists for tuples.
+        values |= {name: tuple(each) for name, each in values.items() if isinstance(each, list)}
+        return NetworkOptions(**values)
     except (KeyError, TypeError, ValueError) as error:
         raise UnreadableInput(f"{path} does not say what network its weights are of: {error}.", _HINT) from error
