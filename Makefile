@@ -15,8 +15,9 @@ BUILD_PACKAGES := g++ cmake ninja-build python3-dev python3-venv \
   libcgal-dev libeigen3-dev libnanoflann-dev libtbb-dev libgtest-dev
 # Pictures without a screen, and the scans of the demo.
 DEMO_PACKAGES := libosmesa6 libcgal-demo
-# A browser, to see that pages render.
+# A browser, to see that pages render: for the tests alone.
 TEST_PACKAGES := chromium
+DEBIAN_PACKAGES := $(BUILD_PACKAGES) $(DEMO_PACKAGES)
 SCANS := /usr/share/doc/libcgal-dev/data.tar.gz
 
 PACKAGE_SOURCES := CMakeLists.txt pyproject.toml $(shell find src python -type f -not -name '*.pyc')
@@ -42,7 +43,7 @@ help:
 debian:
 	@if ! command -v dpkg-query >/dev/null; then \
 	  echo "== Not Debian: please see to it that there are (Debian's names): $(BUILD_PACKAGES)"; exit 0; fi; \
-	missing=$$(for package in $(BUILD_PACKAGES) $(DEMO_PACKAGES) $(TEST_PACKAGES); do \
+	missing=$$(for package in $(DEBIAN_PACKAGES); do \
 	  dpkg-query -W -f='$${Status}' $$package 2>/dev/null | grep -q 'ok installed' || echo $$package; done); \
 	if [ -n "$$missing" ]; then \
 	  echo "== Installing Debian packages:" $$missing; \
@@ -83,6 +84,8 @@ demo: setup $(DEMO)/hippo1.ply
 	@echo "== Look at $(DEMO)/hippo1.png and $(DEMO)/oni.png; the meshes and reports lie beside them."
 
 # ---- tests -----------------------------------------------------------------------------------------
+
+test pytest: DEBIAN_PACKAGES += $(TEST_PACKAGES)
 
 test: lint core sanitize pytest
 
