@@ -9,6 +9,8 @@ around the defaults of `GroundTruthOptions`. Prints Markdown. Needs the `bench` 
 
 from __future__ import annotations
 
+import multiprocessing
+from concurrent.futures import ProcessPoolExecutor
 from dataclasses import replace
 from pathlib import Path
 from types import ModuleType
@@ -40,6 +42,8 @@ VALUES = {
 
 DEFAULTS = GroundTruthOptions()
 
+Scores = tuple[float, float, float]
+
 
 def variants() -> dict[str, GroundTruthOptions]:
     """Return the options to compare by what is not the default in them."""
@@ -51,7 +55,7 @@ def variants() -> dict[str, GroundTruthOptions]:
 
 def scores(
     sampled: Sampled, surface: Surface, options: GroundTruthOptions, vertices: int, metrics: ModuleType
-) -> tuple[float, float, float]:
+) -> Scores:
     """Return T3, G before the refinement and CDs after it."""
     truth = sampled.truth
     plain = reconstruct(
@@ -66,26 +70,34 @@ def scores(
     return plain.report.meshing["t3_kept"] / len(plain.faces), before["G"], after["CDs"]
 
 
+def run_mesh(path: Path, baselines: Path, vertices: int) -> list[Scores]:
+    """Return the scores of one mesh, variant by variant."""
+    metrics = load_metrics(baselines)
+    sampled = Sampled.of(path, metrics)
+    surface = oriented_surface(sampled.points, sampled.normals).surface
+    rows = []
+    for name, options in variants().items():
+        rows.append(scores(sampled, surface, options, vertices, metrics))
+        click.echo(f"{path.stem}, {name}: T3 {rows[-1][0]:.4f}, G {rows[-1][1]:.4f}, CDs {rows[-1][2]:.4f}", err=True)
+    return rows
+
+
 @click.command()
 @click.argument("folder", type=click.Path(exists=True, path_type=Path), default=ROOT / "../shared/data/meshes/val")
 @click.argument("baselines", type=click.Path(exists=True, path_type=Path), default=ROOT / "../shared/baselines")
 @click.option("--meshes", default=MESHES, show_default=True, help="these, by name")
 @click.option("--vertices", default=5180, show_default=True)
-def main(*, folder: Path, baselines: Path, meshes: str, vertices: int) -> None:
+@click.option("--jobs", default=2, show_default=True, help="meshes at a time")
+def main(*, folder: Path, baselines: Path, meshes: str, vertices: int, jobs: int) -> None:
     """Reconstruct meshes of FOLDER from true embeddings of all sorts; score them by the metrics in BASELINES."""
-    metrics, paths = load_metrics(baselines), meshes_of(folder, meshes)
-    table: dict[str, list[tuple[float, float, float]]] = {name: [] for name in variants()}
-    for path in paths:
-        sampled = Sampled.of(path, metrics)
-        surface = oriented_surface(sampled.points, sampled.normals).surface
-        for name, options in variants().items():
-            table[name].append(scores(sampled, surface, options, vertices, metrics))
-            t3, g, cds = table[name][-1]
-            click.echo(f"{path.stem}, {name}: T3 {t3:.4f}, G {g:.4f}, CDs {cds:.4f}", err=True)
+    paths = meshes_of(folder, meshes)
+    with ProcessPoolExecutor(jobs, mp_context=multiprocessing.get_context("spawn")) as pool:
+        futures = [pool.submit(run_mesh, path, baselines, vertices) for path in paths]
+        by_mesh = [future.result() for future in futures]
     click.echo(f"Means over {len(paths)} meshes ({', '.join(path.stem for path in paths)}):\n")
     click.echo("| option (its default) | T3, % | G before refinement | CDs | CDs, geometric mean |")
     click.echo("|---|---|---|---|---|")
-    for name, rows in table.items():
+    for name, rows in zip(variants(), zip(*by_mesh, strict=True), strict=True):
         t3, g, cds = np.mean(rows, axis=0)
         geometric = np.exp(np.log([row[2] for row in rows]).mean())
         click.echo(f"| {name} | {100 * t3:.2f} | {g:.3f} | {cds:.3f} | {geometric:.4f} |")
