@@ -38,6 +38,7 @@ class Extractor {
         options_(options),
         least_fold_cosine_(std::cos(radians(options.max_fold))),
         least_normal_cosine_(std::cos(radians(options.max_normal_angle))),
+        least_lone_cosine_(std::cos(radians(options.max_lone_angle))),
         mesh_(coordinates.rows()) {}
 
   void insert_candidates(const Candidates& candidates);
@@ -61,7 +62,7 @@ class Extractor {
   double outwardness(const Triangle& t) const {
     return (normals_.row(t[0]) + normals_.row(t[1]) + normals_.row(t[2])).dot(area_vector(t).transpose());
   }
-  bool agrees_with_points(const Triangle& triangle) const;
+  bool agrees_with_points(const Triangle& triangle, double least_cosine) const;
   bool folds_back(const Triangle& triangle) const;
   bool touches_enough(const Triangle& triangle, bool bridging);
   bool joins_pieces(Index face, Index vertex);
@@ -73,16 +74,16 @@ class Extractor {
   const CoordinatesRef& coordinates_;
   const PointsRef& normals_;
   const ExtractionOptions& options_;
-  double least_fold_cosine_, least_normal_cosine_;
+  double least_fold_cosine_, least_normal_cosine_, least_lone_cosine_;
   IncrementalManifold mesh_;
   ExtractionCounts counts_;
 };
 
-bool Extractor::agrees_with_points(const Triangle& triangle) const {
+bool Extractor::agrees_with_points(const Triangle& triangle, double least_cosine) const {
   const Eigen::Vector3d normal = area_vector(triangle).normalized();
   double best = 0;  // at a crease a face lies in the plane of one of its points only
   for (Index i : triangle) best = std::max(best, std::abs(normals_.row(i).dot(normal.transpose())));
-  return best >= least_normal_cosine_;
+  return best >= least_cosine;
 }
 
 bool Extractor::folds_back(const Triangle& triangle) const {
@@ -110,7 +111,8 @@ bool Extractor::touches_enough(const Triangle& triangle, bool bridging) {
     face = at_edge;
   }
   if (shared != 1) return shared > 1;
-  return mesh_.faces_of(opposite).empty() || (bridging && joins_pieces(face, opposite));
+  if (!mesh_.faces_of(opposite).empty()) return bridging && joins_pieces(face, opposite);
+  return agrees_with_points(triangle, least_lone_cosine_);
 }
 
 /// Whether no face of the vertex is in the same edge-connected piece as the face.
@@ -127,7 +129,7 @@ bool Extractor::try_insert(const Candidate& candidate) {
   };
   if (options_.max_circumradius > 0 && candidate.radius > options_.max_circumradius)
     return refuse(counts_.refused_size);
-  if (!agrees_with_points(candidate.triangle)) return refuse(counts_.refused_normal);
+  if (!agrees_with_points(candidate.triangle, least_normal_cosine_)) return refuse(counts_.refused_normal);
   switch (mesh_.check(candidate.triangle)) {
     case Verdict::crowded_edge:
       return refuse(counts_.refused_edge);

@@ -10,6 +10,7 @@ namespace hdpea {
 struct ExtractionOptions {
   double max_fold = 120;           ///< largest angle between the normals of faces that share an edge, for T12
   double max_normal_angle = 60;    ///< largest angle between a face's plane and the nearest of its points' planes
+  double max_lone_angle = 45;      ///< the same for T12 that bring a vertex, which may be of another sheet
   double max_circumradius = 0;     ///< in R^d, same unit as the coordinates; 0: no limit
   Index min_component_faces = 16;  ///< smaller connected pieces are dropped, but never the largest
 };
