@@ -22,7 +22,6 @@ from val_table import read_mesh
 from hdpea.dataset.ground_truth import embed_mesh
 from hdpea.dataset.options import GroundTruthOptions, SamplingOptions
 from hdpea.dataset.sampling import sample_surface
-from hdpea.embedding.learned import AREA_NEIGHBORS
 from hdpea.network.inference import PATCH_POINTS, canonical_order, predict_psi
 from hdpea.network.patches import cut_patches
 from hdpea.network.weights import read_weights
@@ -71,7 +70,7 @@ def main(*, mesh: Path, weights: Path, points: int) -> None:
     samples = sample_surface(truth.frame.to_unit(vertices), faces, SamplingOptions(points=points))
     surface = Surface.of(truth.frame, samples.points, samples.normals)
     true = distances(surface, truth.at(samples.points).psi)
-    area = area_shown(samples.points, surface.neighbors[:, :AREA_NEIGHBORS])
+    area = area_shown(samples.points, surface.neighbors)
     spacing = float(np.sqrt(area * POINTS_PER_VERTEX / points))
     network = read_weights(weights)
     across = across_borders(surface)

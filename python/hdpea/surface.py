@@ -15,6 +15,9 @@ from hdpea.frame import UnitFrame
 NEIGHBORS = 40
 """Nearest points looked at around each point; enough for every stage, so they are searched for once."""
 
+AREA_NEIGHBORS = 12
+"""Nearest points of the same sheet that an area is taken from."""
+
 MIN_POINTS = 16
 """Fewer points than this say nothing about a surface."""
 
@@ -68,8 +71,10 @@ def median_spacing(points: NDArray[np.float64], neighbors: NDArray[np.int64]) ->
 def area_shown(points: NDArray[np.float64], neighbors: NDArray[np.int64]) -> float:
     """Return the area of the surface that points (n, 3) show, to some percent; `neighbors` (n, k) as in ``Surface``.
 
-    A disk that reaches to the k-th neighbour of a point holds k points' worth of area, however dense they are there.
+    It is taken from the nearest ``AREA_NEIGHBORS``: a disk that reaches to the k-th neighbour of a point holds k points'
+    worth of area, however dense they are there.
     """
+    neighbors = neighbors[:, :AREA_NEIGHBORS]
     known = neighbors >= 0
     offsets = np.where(known[:, :, None], points[neighbors] - points[:, None], 0)
     squared_radii = np.einsum("nkc,nkc->nk", offsets, offsets).max(axis=1)

@@ -22,9 +22,6 @@ from hdpea.surface import NEIGHBORS, Surface, area_shown
 PER_VERTEX = (4.0, 12.0)
 """Points for each vertex that training has seen: 20,000 to 60,000 for 5,000 vertices."""
 
-AREA_NEIGHBORS = 12
-"""Nearest points of the same sheet that the area is taken from, as the ground truth does."""
-
 
 def embed_learned(
     surface: Surface, vertices: int, options: EmbeddingOptions, progress: Callable[[float], bool]
@@ -45,7 +42,7 @@ def embed_learned(
     network = read_weights(Path(options.weights or ""))
     least, most = PER_VERTEX
     shown = min(vertices, len(points) / least)
-    spacing = float(np.sqrt(area_shown(points, neighbors[:, :AREA_NEIGHBORS]) / shown))
+    spacing = float(np.sqrt(area_shown(points, neighbors) / shown))
     kept = _thinned(len(points), most * shown)
     if len(kept) < len(points):
         points, normals = points[kept], normals[kept]

@@ -67,11 +67,19 @@ def curvature_metric(points: Rows, normals: Rows, area: float) -> CurvatureMetri
     neighbors = _core.nearest_neighbors(points, min(NEIGHBORS, max(len(points) - 1, 1)))
     across = np.einsum("nkc,nc->nk", normals[neighbors], normals) <= LEAST_COSINE
     curvature = _core.estimate_curvature(points, normals, np.where(across, -1, neighbors), radius)
-    directions = np.stack([curvature.direction1, np.cross(normals, curvature.direction1), normals], axis=1)
-    k1, k2 = np.maximum(abs(curvature.principal), FLAT).T
+    return CurvatureMetric(points, root_metrics(normals, curvature.principal, curvature.direction1))
+
+
+def root_metrics(normals: Rows, principal: Rows, direction1: Rows) -> Rows:
+    """Return sqrt(M) (n, 3, 3) as in ``curvature_metric``; principal curvatures are (n, 2), |k1| >= |k2|.
+
+    ``FLAT`` counts in the units of the curvatures.
+    """
+    directions = np.stack([direction1, np.cross(normals, direction1), normals], axis=1)
+    k1, k2 = np.maximum(abs(principal), FLAT).T
     k2 = np.maximum(k2, k1 / MOST_STRETCHED**2)
     roots = np.sqrt(np.stack([k1, k2, k2], axis=1))
-    return CurvatureMetric(points, np.einsum("nd,ndi,ndj->nij", roots, directions, directions))
+    return np.asarray(np.einsum("nd,ndi,ndj->nij", roots, directions, directions))
 
 
 def triangle_qualities(corners: Rows) -> Rows:

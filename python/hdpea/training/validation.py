@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from hdpea import _core
 from hdpea.dataset.sample import Sample
 from hdpea.errors import CannotReconstruct
+from hdpea.evaluation.curvature_metric import CurvatureMetric, root_metrics
 from hdpea.frame import UnitFrame
 from hdpea.meshing import Mesh, extract_mesh
 from hdpea.network.inference import predict_psi
@@ -19,12 +20,6 @@ from hdpea.particles import spread_particles
 from hdpea.refinement import refine_mesh
 from hdpea.surface import Surface
 from hdpea.tangents import tangent_bases
-
-CURVATURE_FLOOR = 1.0
-"""Curvature below which the surface counts as flat, 1 / unit length; as in the baselines' metrics."""
-
-RATIO_MAX = 10.0
-"""Largest ratio of the metric's stretches; likewise."""
 
 T3_WANTED, G_WANTED = 0.95, 0.77
 """What a network is wanted to reach."""
@@ -74,26 +69,9 @@ def mesh_of_embedding(surface: Surface, psi: NDArray[np.float64], vertices: int)
 
 def metric_quality(mesh: Mesh, sample: Sample) -> NDArray[np.float64]:
     """Return the quality G (f,) of each face under the metric of the true curvature; 1 if equilateral there."""
-    nearest = _core.nearest_neighbors(
-        np.ascontiguousarray(sample.surface_points, np.float64), mesh.vertices_in_unit, 1
-    )[:, 0]
-    roots = _root_metrics(sample, nearest)[mesh.faces].mean(axis=1)  # (f, 3, 3)
-    corners = mesh.vertices_in_unit[mesh.faces]  # (f, 3, 3)
-    a, b, c = (np.einsum("fij,fj->fi", roots, corners[:, i] - corners[:, 0]) for i in range(3))
-    area = np.linalg.norm(np.cross(b - a, c - a), axis=1) / 2
-    edges = np.stack([np.linalg.norm(x - y, axis=1) for x, y in ((a, b), (b, c), (c, a))])  # (3, f)
-    half_perimeter = edges.sum(axis=0) / 2
-    quality: NDArray[np.float64] = 2 * np.sqrt(3) * area / np.maximum(half_perimeter * edges.max(axis=0), 1e-300)
-    return quality
-
-
-def _root_metrics(sample: Sample, index: NDArray[np.int64]) -> NDArray[np.float64]:
-    """Return sqrt(M) (m, 3, 3) of the true curvature at the points `index` (m,) of a sample."""
-    curvatures = np.maximum(np.abs(np.asarray(sample.curvatures[index], np.float64)), CURVATURE_FLOOR)
-    least = curvatures.max(axis=1, keepdims=True) / RATIO_MAX**2
-    curvatures = np.maximum(curvatures, least)
-    normal, first = (np.asarray(each[index], np.float64) for each in (sample.normals, sample.direction1))
-    frame = np.stack([first, np.cross(normal, first), normal], axis=2)  # (m, 3, 3), columns
-    stretches = np.sqrt(np.hstack([curvatures, curvatures.min(axis=1, keepdims=True)]))  # (m, 3)
-    roots: NDArray[np.float64] = frame * stretches[:, None] @ frame.transpose(0, 2, 1)
-    return roots
+    points, normals, curvatures, direction1 = (
+        np.asarray(each, np.float64)
+        for each in (sample.surface_points, sample.normals, sample.curvatures, sample.direction1)
+    )
+    metric = CurvatureMetric(points, root_metrics(normals, curvatures, direction1))
+    return metric.qualities(mesh.vertices_in_unit, mesh.faces)
