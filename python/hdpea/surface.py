@@ -71,8 +71,8 @@ def median_spacing(points: NDArray[np.float64], neighbors: NDArray[np.int64]) ->
 def area_shown(points: NDArray[np.float64], neighbors: NDArray[np.int64]) -> float:
     """Return the area of the surface that points (n, 3) show, to some percent; `neighbors` (n, k) as in ``Surface``.
 
-    It is taken from the nearest ``AREA_NEIGHBORS``: a disk that reaches to the k-th neighbour of a point holds k points'
-    worth of area, however dense they are there.
+    It is taken from the nearest ``AREA_NEIGHBORS``: a disk that reaches to the k-th neighbour of a point holds
+    k points' worth of area, however dense they are there.
     """
     neighbors = neighbors[:, :AREA_NEIGHBORS]
     known = neighbors >= 0
