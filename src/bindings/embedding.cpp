@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hdpea_cpp/embedding.hpp"
 
+#include <nanobind/stl/optional.h>
+
 #include "bindings.hpp"
 
 void register_embedding(nb::module_& module) {
@@ -18,6 +20,6 @@ void register_embedding(nb::module_& module) {
       .def_rw("bending_length", &EmbeddingOptions::bending_length)
       .def_rw("iterations", &EmbeddingOptions::iterations);
   module.def("solve_embedding", &hdpea::solve_embedding, "points"_a, "normals"_a, "curvature"_a, "triangles"_a,
-             "weights"_a, "options"_a, "progress"_a = nb::none(), ReleaseGil(),
+             "weights"_a, "options"_a, "progress"_a = nb::none(), "initial"_a = nb::none(), ReleaseGil(),
              "Solve for psi (n, 5) such that x -> [x, psi(x)] is isometric under the curvature metric.");
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <optional>
+
 #include "hdpea_cpp/curvature.hpp"
 #include "hdpea_cpp/types.hpp"
 
@@ -11,7 +13,7 @@ struct EmbeddingOptions {
   double metric_scale = 1.0;      ///< c of the metric s_i^2 = clamp(c |k_i|, 1, max_stretch^2), a length
   double max_stretch = 8.0;       ///< largest stretch s in any direction, >= 1
   double bending_length = 0.008;  ///< psi does not bend below this length, >= 0; 0 crumples
-  Index iterations = 60;          ///< local/global rounds
+  Index iterations = 25;          ///< local/global rounds
 };
 
 /// Solves for psi with J_psi^T J_psi = M - I, so that x -> [x, psi(x)] in R^8 is isometric under M.
@@ -31,10 +33,13 @@ struct EmbeddingOptions {
 /// @param curvature  as from estimate_curvature() (n)
 /// @param triangles  (t, 3) a mesh, or a soup that covers the surface
 /// @param weights    (t) 1 for a mesh; for a soup the share of each triangle, so that areas are counted once
+/// @param initial    (n, 5) psi to begin at, in any gauge, instead of 0.2 n: the nearer to a solution, the fewer
+///                   iterations it takes
 /// @returns (n, 5)
 /// @throws InvalidArgument on a broken contract; Cancelled
 Coordinates solve_embedding(const PointsRef& points, const PointsRef& normals, const Curvature& curvature,
                             const FacesRef& triangles, const Eigen::Ref<const Eigen::VectorXd>& weights,
-                            const EmbeddingOptions& options, const Progress& progress = {});
+                            const EmbeddingOptions& options, const Progress& progress = {},
+                            const std::optional<Coordinates>& initial = {});
 
 }  // namespace hdpea

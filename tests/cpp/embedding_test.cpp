@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
+#include <optional>
 
 #include "clouds.hpp"
 #include "hdpea_cpp/cholesky.hpp"
@@ -20,7 +21,8 @@ struct Embedded {
   Coordinates coordinates;  // [p, psi]
 };
 
-Embedded embedded(const clouds::Cloud& cloud, double disk, double radius, const EmbeddingOptions& options) {
+Embedded embedded(const clouds::Cloud& cloud, double disk, double radius, const EmbeddingOptions& options,
+                  const std::optional<Coordinates>& initial = {}) {
   const Neighbors neighbors = nearest_neighbors(cloud.points, 40);
   const Index n = cloud.points.rows();
   Embedded result{restricted_voronoi_candidates(cloud.points, tangent_bases_across(cloud.normals), neighbors,
@@ -30,7 +32,7 @@ Embedded embedded(const clouds::Cloud& cloud, double disk, double radius, const 
   const Eigen::VectorXd weights = result.soup.counts.cast<double>() / 3;
   // Solved before it is put in place: Eigen's comma aborts if an exception leaves it unfinished.
   const Coordinates psi =
-      solve_embedding(cloud.points, cloud.normals, curvature, result.soup.triangles, weights, options);
+      solve_embedding(cloud.points, cloud.normals, curvature, result.soup.triangles, weights, options, {}, initial);
   result.coordinates << cloud.points, psi;
   return result;
 }
@@ -86,6 +88,18 @@ TEST(Embedding, AStrongerMetricStretchesMore) {
   EXPECT_GT(more.minCoeff(), 1.5 * less.maxCoeff());
 }
 
+TEST(Embedding, GoesOnFromAnInitialPsiInItsGauge) {
+  const auto cylinder = clouds::cylinder(2000, 1.0 / 16, 0.4);
+  EmbeddingOptions whole, little;
+  little.iterations = 3;
+  const Coordinates solved = embedded(cylinder, 0.06, 0.04, whole).coordinates.rightCols<5>();
+  const Eigen::MatrixXd turn = Eigen::MatrixXd::Random(5, 5).householderQr().householderQ();
+  const Coordinates turned = solved * turn;
+  const Coordinates next = embedded(cylinder, 0.06, 0.04, little, turned).coordinates.rightCols<5>();
+  const Coordinates anew = embedded(cylinder, 0.06, 0.04, little).coordinates.rightCols<5>();
+  EXPECT_LT((next - turned).norm(), 0.1 * (anew - solved).norm());
+}
+
 TEST(Embedding, RefusesABadContract) {
   const auto sphere = clouds::sphere(200);
   EmbeddingOptions options;
@@ -95,6 +109,8 @@ TEST(Embedding, RefusesABadContract) {
   const Faces faces = Faces::Constant(1, 3, 200);
   EXPECT_THROW(solve_embedding(sphere.points, sphere.normals, curvature, faces, Eigen::VectorXd::Ones(1), {}),
                InvalidArgument);
+  const Coordinates narrow = Coordinates::Zero(200, 4);
+  EXPECT_THROW(embedded(sphere, 0.5, 0.5, {}, narrow), InvalidArgument);
 }
 
 TEST(Embedding, StopsWhenProgressSaysSo) {
