@@ -5,7 +5,7 @@
 
 TRAINING and VALIDATION are folders that `hdpea dataset build` made. Each loss trains a network of its own in a folder
 of OUT, so a run that was stopped goes on where it was; then the clouds of VALIDATION are reconstructed from what each
-has learned. The paper's are ndhde-* and point-* (its Table 4). Prints Markdown.
+has learned, alone and settled by the solver. The paper's are ndhde-* and point-* (its Table 4). Prints Markdown.
 """
 
 from __future__ import annotations
@@ -17,11 +17,15 @@ import click
 
 from hdpea.dataset.loading import Dataset
 from hdpea.network.options import CONFIGURATIONS
+from hdpea.network.settling import ROUNDS
+from hdpea.network.transformer import PointTransformer
 from hdpea.training.loop import train
 from hdpea.training.options import LOSSES, PRESETS, LossOptions
 from hdpea.training.validation import validate
 
-COLUMNS = {"t3": "T3", "g": "G", "boundary": "boundary edges"}
+COLUMNS = {"t3": "T3", "g": "G"}
+ROUNDS_AFTER = {"alone": 0, "settled": ROUNDS}
+"""Rounds of the solver after the network."""
 
 
 @click.command()
@@ -29,8 +33,9 @@ COLUMNS = {"t3": "T3", "g": "G", "boundary": "boundary edges"}
 @click.argument("validation", type=click.Path(exists=True, path_type=Path))
 @click.argument("out", type=click.Path(file_okay=False, path_type=Path))
 @click.option("--steps", default=1500, show_default=True)
+@click.option("--clouds", default=5, show_default=True, help="of VALIDATION to judge by, spread over it")
 @click.option("--stem", is_flag=True, help="compare ways to see curvature instead of losses")
-def main(*, training: Path, validation: Path, out: Path, steps: int, stem: bool) -> None:
+def main(*, training: Path, validation: Path, out: Path, steps: int, clouds: int, stem: bool) -> None:
     """Train once for each row, and reconstruct the clouds of VALIDATION."""
     compact, preset = CONFIGURATIONS["compact"], replace(PRESETS["cpu"], steps=steps)
     if stem:
@@ -42,16 +47,25 @@ def main(*, training: Path, validation: Path, out: Path, steps: int, stem: bool)
         }
     else:
         rows = {loss: (compact, replace(preset, loss=LossOptions(loss=loss))) for loss in LOSSES}
+        rows["nothing"] = (compact, None)
     samples, judged = Dataset(training), Dataset(validation)
-    click.echo(f"{steps} steps each on {len(samples)} clouds; means over {len(judged)} others\n")
-    click.echo("| trained with | " + " | ".join(COLUMNS.values()) + " |\n" + "|---" * (1 + len(COLUMNS)) + "|")
+    names = [judged.names[place * len(judged.names) // clouds] for place in range(clouds)]
+    click.echo(f"{steps} steps each on {len(samples)} clouds; means over {', '.join(names)}\n")
+    heads = [f"{head}, {after}" for after in ROUNDS_AFTER for head in COLUMNS.values()]
+    click.echo("| trained with | " + " | ".join(heads) + " |\n" + "|---" * (1 + len(heads)) + "|")
     for name, (network, options) in rows.items():
-        folder = out / name.replace(" ", "_")
-        folder.mkdir(parents=True, exist_ok=True)
-        trained = train(samples, None, folder, network, options).averaged_network()
-        clouds = ((judged.read(each), judged.spacing(each)) for each in judged.names)
-        scores = validate(trained, clouds, options.validation_vertices)
-        click.echo(f"| {name} | " + " | ".join(f"{scores[column]:.3f}" for column in COLUMNS) + " |")
+        if options is None:
+            trained = PointTransformer(network)
+        else:
+            folder = out / name.replace(" ", "_")
+            folder.mkdir(parents=True, exist_ok=True)
+            trained = train(samples, None, folder, network, options).averaged_network()
+        cells = []
+        for rounds in ROUNDS_AFTER.values():
+            read = ((judged.read(each), judged.spacing(each)) for each in names)
+            scores = validate(trained, read, preset.validation_vertices, rounds)
+            cells += [f"{scores[column]:.3f}" for column in COLUMNS]
+        click.echo(f"| {name} | " + " | ".join(cells) + " |")
 
 
 if __name__ == "__main__":

@@ -89,7 +89,9 @@ class EmbeddingOptions(Checked):
         "direct: solved for on this cloud; learned: by a trained network, at once",
         choices=("direct", "learned"),
     )
-    weights: str | None = option(None, "learned: file of the network's weights, as `hdpea train` writes it")
+    weights: str | None = option(
+        None, "learned: file of the network's weights, as `hdpea train` writes it; default: those that come along"
+    )
     whole_points: int = option(
         80_000, "learned: clouds of more points are embedded in patches that are joined (PMEI)", minimum=1
     )
@@ -105,10 +107,9 @@ class EmbeddingOptions(Checked):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        if (self.embedding == "learned") != (self.weights is not None):
+        if self.weights is not None and self.embedding != "learned":
             raise UsageError(
-                "The learned embedding needs weights, and no other does.",
-                "Give --embedding learned --weights FILE; `hdpea train` writes best.safetensors.",
+                f"The {self.embedding} embedding has no use for weights.", "Give --embedding learned as well."
             )
 
 

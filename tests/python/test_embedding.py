@@ -1,26 +1,27 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Every embedding keeps the interface; the direct one stretches where the surface bends."""
+"""Every embedding keeps the interface and stretches where the surface bends."""
 
 from __future__ import annotations
 
 from dataclasses import fields
-from pathlib import Path
 
 import clouds
 import numpy as np
 import pytest
-from networks import TINY
 
 from hdpea import _core, embed_points
 from hdpea.embedding import EMBEDDERS, Embedding, embed_surface
-from hdpea.embedding.direct import triangle_soup
 from hdpea.errors import Interrupted, UsageError
 from hdpea.lengths import Length
-from hdpea.network.transformer import PointTransformer
-from hdpea.network.weights import write_weights
 from hdpea.normals import oriented_surface
 from hdpea.options import EmbeddingOptions, MeshingOptions, Options
+from hdpea.soup import triangle_soup
 from hdpea.surface import Surface
+
+BOTH = [
+    pytest.param(EmbeddingOptions(metric_scale=1), id="direct"),
+    pytest.param(EmbeddingOptions(embedding="learned"), id="learned"),
+]
 
 
 def surface_of(cloud: clouds.Cloud) -> Surface:
@@ -46,13 +47,9 @@ def distances_across(coordinates: clouds.Array) -> clouds.Array:
 
 @pytest.mark.parametrize("name", EMBEDDERS)
 @pytest.mark.parametrize("shape", ["torus", "plane"])
-def test_an_embedding_extends_the_points_by_five_finite_columns(name: str, shape: str, tmp_path: Path) -> None:
+def test_an_embedding_extends_the_points_by_five_finite_columns(name: str, shape: str) -> None:
     surface = surface_of(getattr(clouds, shape)(1500))
-    options = EmbeddingOptions()
-    if name == "learned":
-        write_weights(tmp_path / "tiny.safetensors", PointTransformer(TINY))
-        options = EmbeddingOptions(embedding=name, weights=str(tmp_path / "tiny.safetensors"))
-    embedded = embed_surface(surface, 200, options)
+    embedded = embed_surface(surface, 200, EmbeddingOptions(embedding=name))
     assert embedded.coordinates.shape == (1500, 8)
     assert np.isfinite(embedded.coordinates).all()
     np.testing.assert_array_equal(embedded.coordinates[:, :3], surface.points_in_unit)
@@ -64,36 +61,41 @@ def test_every_embedding_can_be_chosen() -> None:
 
 
 def test_the_triangle_soup_covers_the_surface_once() -> None:
-    soup = triangle_soup(surface_of(clouds.torus(3000)))
+    surface = surface_of(clouds.torus(3000))
+    soup = triangle_soup(surface.points_in_unit, surface.normals, surface.neighbors)
     diagonal = surface_of(clouds.torus(3000)).frame.diagonal
     assert soup.area * diagonal**2 == pytest.approx(4 * np.pi**2 * 0.4, rel=0.03)
 
 
-def test_a_cylinder_is_stretched_around_but_not_along() -> None:
-    points, normals = clouds.cylinder(4000)
+@pytest.mark.parametrize("options", BOTH)
+def test_a_cylinder_is_stretched_around_but_not_along(options: EmbeddingOptions) -> None:
+    points, normals = clouds.cylinder(8000)
     surface = surface_of((points, normals))
-    coordinates = embed_surface(surface, 2000, EmbeddingOptions(metric_scale=1)).coordinates
-    axis = np.tile([0.0, 0, 1], (4000, 1))
-    around = stretches(surface, coordinates, np.cross(normals, axis))
-    # The metric's stretch is the square root of the curvature in the unit frame; bending takes some of it.
-    wanted = np.sqrt(surface.frame.diagonal / 0.5)
+    embedded = embed_surface(surface, 2000, options)
+    axis = np.tile([0.0, 0, 1], (8000, 1))
+    around = stretches(surface, embedded.coordinates, np.cross(normals, axis))
+    assert embedded.metric is not None
+    # Bending takes some of it.
+    wanted = embedded.metric.stretches(np.array(surface.frame.diagonal / 0.5))
     assert 0.7 * wanted < np.median(around) < 1.05 * wanted
-    assert np.median(stretches(surface, coordinates, axis)) < 1.1
+    assert np.median(stretches(surface, embedded.coordinates, axis)) < 1.1
 
 
-def test_a_sphere_is_stretched_alike_in_all_directions() -> None:
-    points, normals = clouds.sphere(3000)
+@pytest.mark.parametrize("options", BOTH)
+def test_a_sphere_is_stretched_alike_in_all_directions(options: EmbeddingOptions) -> None:
+    points, normals = clouds.sphere(6000)
     surface = surface_of((points, normals))
-    coordinates = embed_surface(surface, 1500, EmbeddingOptions(metric_scale=1)).coordinates
+    coordinates = embed_surface(surface, 1500, options).coordinates
     south = np.cross(normals, np.cross(normals, [0, 0, 1]))
     south /= np.linalg.norm(south, axis=1, keepdims=True)
     down, across = (stretches(surface, coordinates, way) for way in (south, np.cross(normals, south)))
     assert np.median(down) == pytest.approx(np.median(across), rel=0.05)
 
 
-def test_a_plane_is_not_stretched() -> None:
+@pytest.mark.parametrize("options", BOTH)
+def test_a_plane_is_not_stretched(options: EmbeddingOptions) -> None:
     surface = surface_of(clouds.plane(2000))
-    psi = embed_surface(surface, 250, EmbeddingOptions()).coordinates[:, 3:]
+    psi = embed_surface(surface, 250, options).coordinates[:, 3:]
     assert np.ptp(psi, axis=0).max() < 0.01
 
 

@@ -4,16 +4,15 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from hdpea import _core
 from hdpea.embedding.embedded import Embedded, Metric
 from hdpea.lengths import Length
 from hdpea.options import EmbeddingOptions
 from hdpea.report import Choice
+from hdpea.soup import triangle_soup
 from hdpea.surface import Surface
 
 BENDING_PER_SPACING = 0.6
@@ -21,37 +20,6 @@ BENDING_PER_SPACING = 0.6
 
 CURVATURE_PER_SPACING = 1.0
 """Curvature radius in the same spacings: a little more than the embedding can follow."""
-
-
-@dataclass(frozen=True)
-class Soup:
-    """Tangential Delaunay triangles of all points: not a mesh, but every part of the surface is covered once.
-
-    Attributes
-    ----------
-    triangles
-        (t, 3) int64.
-    weights
-        (t,) float64: the share of each triangle, a third for every one of its corners whose cell has it.
-    area
-        Of the surface.
-    """
-
-    triangles: NDArray[np.int64]
-    weights: NDArray[np.float64]
-    area: float
-
-
-def triangle_soup(surface: Surface) -> Soup:
-    """Return the restricted Delaunay triangles of the points in R^3, those of single cells (T1, T2) included."""
-    points = surface.points_in_unit
-    planes = _core.tangent_bases_across(_core.blended_normals(surface.normals, surface.neighbors))
-    # Twice the distance of the 8th neighbour holds the cell, however uneven the sampling.
-    eighth = surface.neighbors[:, 7]
-    distances = np.where(eighth < 0, 0.0, np.linalg.norm(points[eighth] - points, axis=1))
-    radii = 2 * np.maximum(distances, surface.spacing)
-    candidates = _core.restricted_voronoi_candidates(points, planes, surface.neighbors, radii)
-    return Soup(candidates.triangles, candidates.counts / 3, float(candidates.cell_areas.sum()))
 
 
 def embed_directly(
@@ -63,7 +31,7 @@ def embed_directly(
     psi is solved for on it (``solve_embedding`` of the core).
     """
     points, normals = surface.points_in_unit, surface.normals
-    soup = triangle_soup(surface)
+    soup = triangle_soup(points, normals, surface.neighbors)
     spacing = float(np.sqrt(soup.area / vertices))
     choices: list[Choice] = []
 

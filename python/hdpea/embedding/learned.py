@@ -14,7 +14,7 @@ from hdpea.dataset.options import GroundTruthOptions
 from hdpea.embedding.embedded import Embedded, Metric
 from hdpea.network.averaging import carried_over
 from hdpea.network.inference import predict_psi
-from hdpea.network.weights import read_weights
+from hdpea.network.weights import SHIPPED, read_weights
 from hdpea.options import EmbeddingOptions
 from hdpea.report import Choice
 from hdpea.surface import NEIGHBORS, Surface, area_shown
@@ -39,7 +39,7 @@ def embed_learned(
         If `progress` cancels.
     """
     points, normals, neighbors = surface.points_in_unit, surface.normals, surface.neighbors
-    network = read_weights(Path(options.weights or ""))
+    network = read_weights(SHIPPED if options.weights is None else Path(options.weights))
     least, most = PER_VERTEX
     shown = min(vertices, len(points) / least)
     spacing = float(np.sqrt(area_shown(points, neighbors) / shown))

@@ -80,21 +80,6 @@ class Clouds:
             torch.cat([each.batch + int(start) for each, start in zip(clouds, first, strict=False)]),
         )
 
-    def part(self, members: Tensor) -> Clouds:
-        """Return the points `members` (m,) int64 of one cloud, as one cloud about its own centre."""
-        place = torch.full((len(self.points),), -1, dtype=torch.int64, device=members.device)
-        place[members] = torch.arange(len(members), device=members.device)
-        neighbors = self.neighbors[members]
-        points = self.points[members]
-        lowest, highest = points.amin(dim=0), points.amax(dim=0)
-        return Clouds(
-            points - (lowest + (highest - lowest) / 2),
-            self.normals[members],
-            self.shape[members],
-            torch.where(neighbors < 0, neighbors, place[neighbors]),
-            self.batch[members],
-        )
-
     def to(self, device: torch.device) -> Clouds:
         """Return the batch on a device."""
         return Clouds(*(getattr(self, each.name).to(device) for each in fields(self)))

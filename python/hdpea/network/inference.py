@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Psi of clouds by a trained network: at once, or in patches."""
+"""Psi of clouds by a trained network and some rounds of the solver: at once, or in patches."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass
 
 import numpy as np
 import torch
@@ -12,6 +13,7 @@ from numpy.typing import NDArray
 from hdpea.errors import Interrupted
 from hdpea.network.clouds import Clouds, centred_points
 from hdpea.network.patches import cut_patches, joined_psi
+from hdpea.network.settling import ROUNDS, settled
 from hdpea.network.transformer import PointTransformer
 from hdpea.options import EmbeddingOptions
 
@@ -29,6 +31,7 @@ def predict_psi(
     spacing: float,
     whole_points: int = EmbeddingOptions.whole_points,
     progress: Callable[[float], bool] = lambda _: True,
+    rounds: int = ROUNDS,
 ) -> Array:
     """Return the extra coordinates psi (n, 5) of points, in their own units.
 
@@ -48,6 +51,8 @@ def predict_psi(
         Clouds of more points than this are embedded in patches.
     progress
         Is told the share that is done; False cancels.
+    rounds
+        Of the solver after the network (``settled``).
 
     Raises
     ------
@@ -58,12 +63,13 @@ def predict_psi(
     order = canonical_order(centred)
     place = np.empty_like(order)
     place[order] = np.arange(len(order))
-    sorted_neighbors = np.where(neighbors < 0, neighbors, place[neighbors])[order]
-    clouds = Clouds.of(centred[order], normals[order], np.ascontiguousarray(sorted_neighbors))
+    sorted_neighbors = np.ascontiguousarray(np.where(neighbors < 0, neighbors, place[neighbors])[order])
+    cloud = _Cloud(centred[order], normals[order], sorted_neighbors)
+
     if len(points) <= whole_points:
-        predicted = _run(network, clouds)
+        predicted = _embedded(network, cloud, rounds)
     else:
-        predicted = _run_in_patches(network, centred[order], clouds, progress)
+        predicted = _in_patches(network, cloud, rounds, progress)
     psi = np.empty(predicted.shape)
     psi[order] = predicted * spacing
     return psi
@@ -74,22 +80,37 @@ def canonical_order(points: Array) -> NDArray[np.int64]:
     return np.lexsort(points.T)
 
 
-def _run(network: PointTransformer, clouds: Clouds) -> Array:
+@dataclass(frozen=True)
+class _Cloud:
+    """Points and normals (n, 3) and neighbours (n, k), lengths in spacings."""
+
+    points: Array
+    normals: Array
+    neighbors: NDArray[np.int64]
+
+    def part(self, members: NDArray[np.int64]) -> _Cloud:
+        """Return the points `members` (m,)."""
+        place = np.full(len(self.points), -1)
+        place[members] = np.arange(len(members))
+        neighbors = self.neighbors[members]
+        return _Cloud(self.points[members], self.normals[members], np.where(neighbors < 0, neighbors, place[neighbors]))
+
+
+def _embedded(network: PointTransformer, cloud: _Cloud, rounds: int) -> Array:
+    clouds = Clouds.of(cloud.points, cloud.normals, cloud.neighbors)
     was_training = network.training
     network.eval()
     with torch.no_grad():
         psi = network(clouds.to(next(network.parameters()).device)).cpu().numpy()
     network.train(was_training)
-    return np.asarray(psi, np.float64)
+    return settled(cloud.points, cloud.normals, cloud.neighbors, psi.astype(np.float64), rounds)
 
 
-def _run_in_patches(
-    network: PointTransformer, points: Array, clouds: Clouds, progress: Callable[[float], bool]
-) -> Array:
-    centres, patches = cut_patches(points, PATCH_POINTS)
+def _in_patches(network: PointTransformer, cloud: _Cloud, rounds: int, progress: Callable[[float], bool]) -> Array:
+    centres, patches = cut_patches(cloud.points, PATCH_POINTS)
     psis = []
     for number, patch in enumerate(patches):
         if not progress(number / len(patches)):
             raise Interrupted
-        psis.append(_run(network, clouds.part(torch.from_numpy(patch.members))))
-    return joined_psi(points, centres, patches, psis)
+        psis.append(_embedded(network, cloud.part(patch.members), rounds))
+    return joined_psi(cloud.points, centres, patches, psis)

@@ -20,7 +20,7 @@ class NetworkOptions(Checked):
     head_width: int = option(16, "channels of an attention head", minimum=1)
     patch_size: int = option(256, "voxels that attend to each other", minimum=1)
     mlp_ratio: int = option(2, "width inside a block's MLP, in its own width", minimum=1)
-    voxel: float = option(0.56, "side of the finest voxels, in spacings; doubles at each level", minimum=1e-6)
+    voxel: float = option(1.0, "side of the finest voxels, in spacings; doubles at each level", minimum=1e-6)
     neighbors: int = option(16, "nearest points that stem and averages look at", minimum=1)
     shape: bool = option(True, "the shape operator, fitted to the normals, is a feature of each point")
     stem: bool = option(False, "edge convolutions on nearest neighbours before the first pooling")
@@ -28,7 +28,7 @@ class NetworkOptions(Checked):
     normal_share: float = option(14.0, "psi is this times the normal, in spacings, plus what is learned", minimum=0)
     normal_gate: bool = option(True, "that share is learned point by point, and only begins so")
     normal_rounds: int = option(2, "times the normals are averaged over neighbours before that", minimum=0)
-    smoothing: int = option(8, "times psi is averaged over neighbours, as the last layer", minimum=0)
+    smoothing: int = option(4, "times psi is averaged over neighbours, as the last layer", minimum=0)
     seed: int = option(0, "seed of the first weights", minimum=0)
 
     def __post_init__(self) -> None:

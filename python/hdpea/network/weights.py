@@ -18,6 +18,9 @@ from hdpea.network.options import NetworkOptions
 from hdpea.network.transformer import PointTransformer
 from hdpea.outputs import replacing
 
+SHIPPED = Path(__file__).with_name("compact.safetensors")
+"""The weights that come along: docs/training.md says what they were trained on, and how."""
+
 FORMAT = "1"
 """Counts up whenever the meaning of the weights changes: layers, inputs, outputs."""
 

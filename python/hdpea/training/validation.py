@@ -15,6 +15,7 @@ from hdpea.evaluation.curvature_metric import CurvatureMetric, root_metrics
 from hdpea.frame import UnitFrame
 from hdpea.meshing import Mesh, extract_mesh
 from hdpea.network.inference import predict_psi
+from hdpea.network.settling import ROUNDS
 from hdpea.network.transformer import PointTransformer
 from hdpea.particles import spread_particles
 from hdpea.refinement import refine_mesh
@@ -25,8 +26,15 @@ T3_WANTED, G_WANTED = 0.95, 0.77
 """What a network is wanted to reach."""
 
 
-def validate(network: PointTransformer, samples: Iterable[tuple[Sample, float]], vertices: int) -> dict[str, float]:
+def validate(
+    network: PointTransformer, samples: Iterable[tuple[Sample, float]], vertices: int, rounds: int = ROUNDS
+) -> dict[str, float]:
     """Return the mean scores of the meshes of so many `vertices` that the network makes of samples and their spacing.
+
+    Parameters
+    ----------
+    rounds
+        Of the solver after the network.
 
     Returns
     -------
@@ -35,17 +43,17 @@ def validate(network: PointTransformer, samples: Iterable[tuple[Sample, float]],
     ``boundary``: edges of one face; ``score``: what checkpoints are chosen by, the sum of t3 and g, of which each
     counts only up to a little above what is wanted.
     """
-    rows = [_scores(network, sample, spacing, vertices) for sample, spacing in samples]
+    rows = [_scores(network, sample, spacing, vertices, rounds) for sample, spacing in samples]
     means = {name: float(np.mean([row[name] for row in rows])) for name in rows[0]}
     score = min(means["t3"] / T3_WANTED, 1.02) + min(means["g"] / G_WANTED, 1.1)
     return means | {"score": score}
 
 
-def _scores(network: PointTransformer, sample: Sample, spacing: float, vertices: int) -> dict[str, float]:
+def _scores(network: PointTransformer, sample: Sample, spacing: float, vertices: int, rounds: int) -> dict[str, float]:
     points, normals = np.asarray(sample.points, np.float64), np.asarray(sample.normals, np.float64)
     surface = Surface.of(UnitFrame(np.zeros(3), 1.0), points, normals / np.linalg.norm(normals, axis=1, keepdims=True))
     try:
-        psi = predict_psi(network, points, surface.normals, surface.neighbors, spacing)
+        psi = predict_psi(network, points, surface.normals, surface.neighbors, spacing, rounds=rounds)
         mesh = mesh_of_embedding(surface, psi, vertices)
     except CannotReconstruct:
         return {"t3": 0.0, "g": 0.0, "boundary": float("nan")}

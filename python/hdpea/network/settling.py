@@ -1,0 +1,48 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""From the network's psi to one that satisfies the metric: some rounds of the core's solver.
+
+A network knows how psi runs over a part, and is vague about the last percents; local/global iteration is the other
+way round: from a start that knows nothing it takes many rounds until the parts agree, from a good one very few.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hdpea import _core
+from hdpea.dataset.options import GroundTruthOptions
+from hdpea.network.clouds import CURVATURE_RADIUS
+from hdpea.soup import triangle_soup
+
+ROUNDS = 4
+"""Local/global iterations; ``benchmarks/settling_table.py`` compares other numbers."""
+
+Array = NDArray[np.float64]
+
+
+def settled(points: Array, normals: Array, neighbors: NDArray[np.int64], psi: Array, rounds: int = ROUNDS) -> Array:
+    """Return psi (n, 5), smooth and nearer to the metric that networks are trained on.
+
+    Parameters
+    ----------
+    points
+        (n, 3), in spacings.
+    normals
+        (n, 3), unit, consistently oriented.
+    neighbors
+        (n, k): nearest points of the same sheet, nearest first, -1 pads.
+    psi
+        (n, 5), in spacings.
+    rounds
+        Of the solver.
+    """
+    if not rounds:
+        return psi
+    truth = GroundTruthOptions()  # what networks are trained on, unless its options are changed
+    solver = _core.EmbeddingOptions()
+    solver.metric_scale, solver.max_stretch = truth.metric_scale, truth.max_stretch
+    solver.bending_length, solver.iterations = truth.bending_length, rounds
+    soup = triangle_soup(points, normals, neighbors)
+    curvature = _core.estimate_curvature(points, normals, neighbors, CURVATURE_RADIUS)
+    return _core.solve_embedding(points, normals, curvature, soup.triangles, soup.weights, solver, initial=psi)
