@@ -36,6 +36,8 @@ class IncrementalManifold {
   std::array<Index, 2> faces_at(Index a, Index b) const;
   /// The representative of a face's edge-connected piece, and whether the face is flipped against it.
   std::pair<Index, bool> piece_of(Index face) { return pieces_.find(face); }
+  /// How many faces the piece of a face has.
+  Index piece_size(Index face) { return pieces_.size(face); }
   /// Whether two triangles that share the edge (a, b) must have opposite parities to agree in orientation.
   static bool opposite_parity(const Triangle& first, const Triangle& second, Index a, Index b);
 

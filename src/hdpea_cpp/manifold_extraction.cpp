@@ -115,11 +115,15 @@ bool Extractor::touches_enough(const Triangle& triangle, bool bridging) {
   return agrees_with_points(triangle, least_lone_cosine_);
 }
 
-/// Whether no face of the vertex is in the same edge-connected piece as the face.
+/// Whether no face of the vertex is in the same edge-connected piece as the face, and one side is a fragment: whole
+/// parts that come near each other stay apart.
 bool Extractor::joins_pieces(Index face, Index vertex) {
   const Index piece = mesh_.piece_of(face).first;
   const std::vector<Index>& others = mesh_.faces_of(vertex);
-  return std::none_of(others.begin(), others.end(), [&](Index other) { return mesh_.piece_of(other).first == piece; });
+  const auto same = [&](Index other) { return mesh_.piece_of(other).first == piece; };
+  const auto small = [&](Index other) { return mesh_.piece_size(other) <= options_.max_bridged_faces; };
+  return std::none_of(others.begin(), others.end(), same) &&
+         (small(face) || std::all_of(others.begin(), others.end(), small));
 }
 
 bool Extractor::try_insert(const Candidate& candidate) {

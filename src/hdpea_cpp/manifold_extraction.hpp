@@ -12,6 +12,7 @@ struct ExtractionOptions {
   double max_normal_angle = 60;    ///< largest angle between a face's plane and the nearest of its points' planes
   double max_lone_angle = 45;      ///< the same for T12 that bring a vertex, which may be of another sheet
   double max_circumradius = 0;     ///< in R^d, same unit as the coordinates; 0: no limit
+  Index max_bridged_faces = 64;    ///< larger pieces are not joined by a triangle that shares one edge
   Index min_component_faces = 16;  ///< smaller connected pieces are dropped, but never the largest
 };
 
@@ -40,9 +41,9 @@ struct ExtractedMesh {
 ///
 /// T3 first, then T12, best first: seen twice before once, then by circumradius in R^d. A T12 triangle must
 /// share two edges with the mesh, or one and bring a vertex that has no face yet; sweeps repeat until none
-/// enters, and then once more with those that share one edge and reach a vertex of another piece: on parts so
-/// thin that few cells agree, they join the fragments. Then small components are dropped and pinched vertices split.
-/// Borders stay open.
+/// enters, and then once more with those that share one edge and reach a vertex of another piece, one of the two
+/// being small: on parts so thin that few cells agree, they join the fragments. Then small components are dropped and
+/// pinched vertices split. Borders stay open.
 ///
 /// @param coordinates  (n, d) seeds; their first three columns are positions in R^3
 /// @param normals      (n, 3) unit; their signs only decide which side of a whole component is out

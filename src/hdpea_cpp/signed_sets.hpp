@@ -14,7 +14,8 @@ namespace hdpea {
 /// Joining two sets flips one of them as a whole, at no cost: so orientations can be agreed on piece by piece.
 class SignedSets {
  public:
-  explicit SignedSets(Index n = 0) : parent_(static_cast<std::size_t>(n)), flipped_(static_cast<std::size_t>(n), 0) {
+  explicit SignedSets(Index n = 0)
+      : parent_(static_cast<std::size_t>(n)), flipped_(parent_.size(), 0), size_(parent_.size(), 1) {
     std::iota(parent_.begin(), parent_.end(), Index{0});
   }
 
@@ -22,6 +23,7 @@ class SignedSets {
   void add() {
     parent_.push_back(static_cast<Index>(parent_.size()));
     flipped_.push_back(0);
+    size_.push_back(1);
   }
 
   /// The set's representative, and whether the member's sign is opposite to its.
@@ -42,6 +44,9 @@ class SignedSets {
     return {root, flipped};
   }
 
+  /// How many members the set of i has.
+  Index size(Index i) { return size_[find(i).first]; }
+
   /// Joins the sets of i and j such that the two have opposite signs, or equal ones; the representative of i's
   /// set stays. Members of one set keep the signs they have.
   void join(Index i, Index j, bool opposite) {
@@ -49,12 +54,14 @@ class SignedSets {
     const auto [root_j, flipped_j] = find(j);
     if (root_i == root_j) return;
     parent_[root_j] = root_i;
+    size_[root_i] += size_[root_j];
     flipped_[root_j] = (flipped_i != flipped_j) != opposite;
   }
 
  private:
   std::vector<Index> parent_;
   std::vector<char> flipped_;  // against the parent
+  std::vector<Index> size_;    // of representatives
 };
 
 }  // namespace hdpea

@@ -83,7 +83,8 @@ TEST(ManifoldExtraction, StricterLimitsKeepFewerFaces) {
 }
 
 /// What is made of triangles of a flat zigzag strip, 0 2 4 on one side and 1 3 5 on the other.
-ExtractedMesh mesh_of_strip(const std::vector<std::pair<Triangle, int>>& triangles_and_counts) {
+ExtractedMesh mesh_of_strip(const std::vector<std::pair<Triangle, int>>& triangles_and_counts,
+                            const ExtractionOptions& options = {}) {
   Points points(6, 3);
   for (Index i = 0; i < 6; ++i) points.row(i) << 0.5 * static_cast<double>(i), i % 2 == 0 ? 0 : 0.9, 0;
   const Index count = static_cast<Index>(triangles_and_counts.size());
@@ -93,13 +94,21 @@ ExtractedMesh mesh_of_strip(const std::vector<std::pair<Triangle, int>>& triangl
     candidates.triangles.row(t) << triangle[0], triangle[1], triangle[2];
     candidates.counts(t) = cells;
   }
-  return extract_manifold(points, Eigen::RowVector3d::UnitZ().replicate(6, 1), candidates, {});
+  return extract_manifold(points, Eigen::RowVector3d::UnitZ().replicate(6, 1), candidates, options);
 }
 
 TEST(ManifoldExtraction, ABridgeJoinsTwoPieces) {
   const ExtractedMesh mesh = mesh_of_strip({{{0, 1, 2}, 3}, {{1, 2, 3}, 1}, {{2, 3, 4}, 1}, {{3, 4, 5}, 3}});
   EXPECT_EQ(mesh.faces.rows(), 4);
   EXPECT_EQ(mesh.sources.size(), 6);  // nothing is pinched: they share edges
+}
+
+TEST(ManifoldExtraction, NoBridgeJoinsTwoLargePieces) {
+  ExtractionOptions options;
+  options.max_bridged_faces = 0;
+  options.min_component_faces = 1;
+  const ExtractedMesh mesh = mesh_of_strip({{{0, 1, 2}, 3}, {{1, 2, 3}, 1}, {{3, 4, 5}, 3}}, options);
+  EXPECT_EQ(mesh.counts.refused_loose, 1);
 }
 
 TEST(ManifoldExtraction, NoBridgeJoinsAPieceToItself) {

@@ -28,6 +28,7 @@ TEST(SignedSets, JoiningTwoSetsFlipsOneAsAWhole) {
   sets.join(1, 3, false);  // 1 is opposite to 0, so 3 and with it 2 are
   EXPECT_EQ(sets.find(2), std::pair(Index{0}, true));
   EXPECT_EQ(sets.find(3), std::pair(Index{0}, true));
+  EXPECT_EQ(sets.size(3), 4);
 }
 
 TEST(SignedSets, MembersOfOneSetKeepTheirSigns) {
@@ -35,6 +36,7 @@ TEST(SignedSets, MembersOfOneSetKeepTheirSigns) {
   sets.join(0, 1, true);
   sets.join(0, 1, false);
   EXPECT_TRUE(sets.find(1).second);
+  EXPECT_EQ(sets.size(0), 2);
 }
 
 }  // namespace
