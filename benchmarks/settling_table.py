@@ -25,7 +25,7 @@ from hdpea.surface import Surface, area_shown
 from hdpea.training.validation import mesh_of_embedding
 
 COLUMNS = {"T3": 3, "G": 3, "CDs": 3, "HDs": 3, "seconds": 2}
-ROUNDS = (0, 1, 2, 4, 8, 16, 25)
+ROUNDS = (0, 1, 2, 4, 8, 25)
 NORMAL_FACTOR = 0.2
 """Factor on the normals, in diagonals, where the direct embedding begins."""
 

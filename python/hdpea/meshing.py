@@ -22,9 +22,6 @@ from hdpea.triangles import mesh_area
 DISK_RADIUS = 1.8
 """Radius of the disks in mean distances of the particles in R^d."""
 
-MAX_CIRCUMRADIUS = 1.2
-"""Largest circumradius of a face in R^d, in radii of the largest disk."""
-
 HOLES_FILLED = 4.0
 """Size of the largest hole that is filled unasked, in spacings of the vertices in R^3."""
 
@@ -76,9 +73,8 @@ def extract_mesh(
         smallest = float(radii.min()) * surface.frame.diagonal
         disks = Choice("disk_radius", smallest, "world units under the metric", why)
         limits = _core.ExtractionOptions()
-        limits.max_circumradius = MAX_CIRCUMRADIUS * float(radii.max())
         limits.min_component_faces = options.min_component
-        extracted = _core.extract_manifold(particles.coordinates, normals, candidates, limits)
+        extracted = _core.extract_manifold(particles.coordinates, normals, radii, candidates, limits)
         if len(extracted.faces) == 0:
             raise CannotReconstruct(
                 "No triangle holds on these points.", "They may be too few or too noisy; try fewer vertices."

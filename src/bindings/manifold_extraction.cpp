@@ -32,6 +32,6 @@ void register_manifold_extraction(nb::module_& module) {
       .def_ro("faces", &ExtractedMesh::faces, "(f, 3) int64")
       .def_ro("sources", &ExtractedMesh::sources, "(v,) int64: the seed of each vertex")
       .def_ro("counts", &ExtractedMesh::counts);
-  module.def("extract_manifold", &hdpea::extract_manifold, "coordinates"_a, "normals"_a, "candidates"_a, "options"_a,
-             ReleaseGil(), "Choose an edge- and vertex-manifold, oriented mesh from the candidates.");
+  module.def("extract_manifold", &hdpea::extract_manifold, "coordinates"_a, "normals"_a, "disk_radii"_a, "candidates"_a,
+             "options"_a, ReleaseGil(), "Choose an edge- and vertex-manifold, oriented mesh from the candidates.");
 }

@@ -32,9 +32,11 @@ double circumradius(const CoordinatesRef& x, const Triangle& t) {
 
 class Extractor {
  public:
-  Extractor(const CoordinatesRef& coordinates, const PointsRef& normals, const ExtractionOptions& options)
+  Extractor(const CoordinatesRef& coordinates, const PointsRef& normals,
+            const Eigen::Ref<const Eigen::VectorXd>& disk_radii, const ExtractionOptions& options)
       : coordinates_(coordinates),
         normals_(normals),
+        disk_radii_(disk_radii),
         options_(options),
         least_fold_cosine_(std::cos(radians(options.max_fold))),
         least_normal_cosine_(std::cos(radians(options.max_normal_angle))),
@@ -62,6 +64,11 @@ class Extractor {
   double outwardness(const Triangle& t) const {
     return (normals_.row(t[0]) + normals_.row(t[1]) + normals_.row(t[2])).dot(area_vector(t).transpose());
   }
+  /// The middle one of the radii of the corners' disks.
+  double disk_radius(const Triangle& t) const {
+    const double a = disk_radii_(t[0]), b = disk_radii_(t[1]), c = disk_radii_(t[2]);
+    return std::max(std::min(a, b), std::min(std::max(a, b), c));
+  }
   bool agrees_with_points(const Triangle& triangle, double least_cosine) const;
   bool folds_back(const Triangle& triangle) const;
   bool touches_enough(const Triangle& triangle, bool bridging);
@@ -73,6 +80,7 @@ class Extractor {
 
   const CoordinatesRef& coordinates_;
   const PointsRef& normals_;
+  const Eigen::Ref<const Eigen::VectorXd>& disk_radii_;
   const ExtractionOptions& options_;
   double least_fold_cosine_, least_normal_cosine_, least_lone_cosine_;
   IncrementalManifold mesh_;
@@ -131,7 +139,7 @@ bool Extractor::try_insert(const Candidate& candidate) {
     ++counter;
     return false;
   };
-  if (options_.max_circumradius > 0 && candidate.radius > options_.max_circumradius)
+  if (candidate.radius > options_.max_circumradius * disk_radius(candidate.triangle))
     return refuse(counts_.refused_size);
   if (!agrees_with_points(candidate.triangle, least_normal_cosine_)) return refuse(counts_.refused_normal);
   switch (mesh_.check(candidate.triangle)) {
@@ -223,13 +231,14 @@ ExtractedMesh Extractor::finish() {
 }  // namespace
 
 ExtractedMesh extract_manifold(const CoordinatesRef& coordinates, const PointsRef& normals,
-                               const Candidates& candidates, const ExtractionOptions& options) {
-  require(coordinates.cols() >= 3 && coordinates.rows() == normals.rows(),
-          "coordinates must be (n, d >= 3) and normals (n, 3)");
+                               const Eigen::Ref<const Eigen::VectorXd>& disk_radii, const Candidates& candidates,
+                               const ExtractionOptions& options) {
+  require(coordinates.cols() >= 3 && coordinates.rows() == normals.rows() && normals.rows() == disk_radii.size(),
+          "coordinates must be (n, d >= 3), normals (n, 3) and radii (n)");
   require(candidates.triangles.rows() == candidates.counts.size(), "each candidate needs a count");
-  require(options.max_fold > 0 && options.max_normal_angle > 0 && options.max_circumradius >= 0,
+  require(options.max_fold > 0 && options.max_normal_angle > 0 && options.max_circumradius > 0,
           "the limits of the extraction must be positive");
-  Extractor extractor(coordinates, normals, options);
+  Extractor extractor(coordinates, normals, disk_radii, options);
   extractor.insert_candidates(candidates);
   return extractor.finish();
 }

@@ -11,7 +11,7 @@ struct ExtractionOptions {
   double max_fold = 120;           ///< largest angle between the normals of faces that share an edge, for T12
   double max_normal_angle = 60;    ///< largest angle between a face's plane and the nearest of its points' planes
   double max_lone_angle = 45;      ///< the same for T12 that bring a vertex, which may be of another sheet
-  double max_circumradius = 0;     ///< in R^d, same unit as the coordinates; 0: no limit
+  double max_circumradius = 1.2;   ///< in R^d, in the radii of the corners' disks, of which the middle one counts
   Index max_bridged_faces = 64;    ///< larger pieces are not joined by a triangle that shares one edge
   Index min_component_faces = 16;  ///< smaller connected pieces are dropped, but never the largest
 };
@@ -47,7 +47,10 @@ struct ExtractedMesh {
 ///
 /// @param coordinates  (n, d) seeds; their first three columns are positions in R^3
 /// @param normals      (n, 3) unit; their signs only decide which side of a whole component is out
+/// @param disk_radii   (n) in R^d, those that the cells were cut by. A stray seed has a wide disk; two corners with
+///                     disks of the usual size keep it from drawing the surface out to a spike
 ExtractedMesh extract_manifold(const CoordinatesRef& coordinates, const PointsRef& normals,
-                               const Candidates& candidates, const ExtractionOptions& options);
+                               const Eigen::Ref<const Eigen::VectorXd>& disk_radii, const Candidates& candidates,
+                               const ExtractionOptions& options);
 
 }  // namespace hdpea

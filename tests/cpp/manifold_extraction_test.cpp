@@ -17,10 +17,10 @@ namespace hdpea {
 namespace {
 
 ExtractedMesh mesh_of(const clouds::Cloud& cloud, double radius, const ExtractionOptions& options = {}) {
+  const Eigen::VectorXd radii = Eigen::VectorXd::Constant(cloud.points.rows(), radius);
   const Candidates candidates = restricted_voronoi_candidates(cloud.points, tangent_bases_across(cloud.normals),
-                                                              nearest_neighbors(cloud.points, 40),
-                                                              Eigen::VectorXd::Constant(cloud.points.rows(), radius));
-  return extract_manifold(cloud.points, cloud.normals, candidates, options);
+                                                              nearest_neighbors(cloud.points, 40), radii);
+  return extract_manifold(cloud.points, cloud.normals, radii, candidates, options);
 }
 
 MeshCheck check_of(const ExtractedMesh& mesh, const clouds::Cloud& cloud) {
@@ -76,7 +76,7 @@ TEST(ManifoldExtraction, DropsSmallPiecesButNotTheLargestAndSaysSo) {
 TEST(ManifoldExtraction, StricterLimitsKeepFewerFaces) {
   const auto sphere = clouds::sphere(500);
   ExtractionOptions strict;
-  strict.max_circumradius = 0.07;
+  strict.max_circumradius = 0.07 / 0.4;
   const ExtractedMesh all = mesh_of(sphere, 0.4), small = mesh_of(sphere, 0.4, strict);
   EXPECT_LT(small.faces.rows(), all.faces.rows());
   EXPECT_GT(small.counts.refused_size, 0);
@@ -94,7 +94,8 @@ ExtractedMesh mesh_of_strip(const std::vector<std::pair<Triangle, int>>& triangl
     candidates.triangles.row(t) << triangle[0], triangle[1], triangle[2];
     candidates.counts(t) = cells;
   }
-  return extract_manifold(points, Eigen::RowVector3d::UnitZ().replicate(6, 1), candidates, options);
+  return extract_manifold(points, Eigen::RowVector3d::UnitZ().replicate(6, 1), Eigen::VectorXd::Ones(6), candidates,
+                          options);
 }
 
 TEST(ManifoldExtraction, ABridgeJoinsTwoPieces) {
@@ -115,6 +116,18 @@ TEST(ManifoldExtraction, NoBridgeJoinsAPieceToItself) {
   const ExtractedMesh mesh = mesh_of_strip({{{0, 1, 2}, 3}, {{1, 2, 3}, 3}, {{2, 3, 4}, 3}, {{0, 1, 4}, 1}});
   EXPECT_EQ(mesh.counts.refused_loose, 1);
   EXPECT_EQ(mesh.faces.rows(), 3);
+}
+
+TEST(ManifoldExtraction, AStrayPointWithAWideDiskDrawsNoSpike) {
+  Points points(4, 3);
+  points << 0, 0, 0, 1, 0, 0, 0.5, 1, 0, 0.5, 20, 0;
+  Candidates candidates{Faces(2, 3), Eigen::Vector2i(3, 3), {}};
+  candidates.triangles << 0, 1, 2, 1, 2, 3;
+  const Eigen::Vector4d disk_radii(1, 1, 1, 50);
+  const ExtractedMesh mesh =
+      extract_manifold(points, Eigen::RowVector3d::UnitZ().replicate(4, 1), disk_radii, candidates, {});
+  EXPECT_EQ(mesh.counts.refused_size, 1);
+  EXPECT_EQ(mesh.faces.rows(), 1);
 }
 
 TEST(ManifoldExtraction, AccountsForEveryCandidate) {

@@ -15,7 +15,7 @@ from hdpea.dataset.options import GroundTruthOptions
 from hdpea.network.clouds import CURVATURE_RADIUS
 from hdpea.soup import triangle_soup
 
-ROUNDS = 4
+ROUNDS = 8
 """Local/global iterations; ``benchmarks/settling_table.py`` compares other numbers."""
 
 Array = NDArray[np.float64]
