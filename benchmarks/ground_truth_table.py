@@ -1,14 +1,16 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What each option of the ground truth is worth to a reconstruction from the true embedding.
 
-    python benchmarks/ground_truth_table.py [--meshes bull,trex]
+    python benchmarks/ground_truth_table.py [--meshes bull,trex] [--save DIR]
 
 Meshes are sampled and scored as `val_table.py` does, and reconstructed by the oracle. Options change one at a time,
-around the defaults of `GroundTruthOptions`. Prints Markdown. Needs the `bench` dependency group (`make bench-setup`).
+around the defaults of `GroundTruthOptions`. Prints Markdown; two minutes a mesh, so it can be done in pieces. Needs the
+`bench` dependency group (`make bench-setup`).
 """
 
 from __future__ import annotations
 
+import json
 import multiprocessing
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import replace
@@ -25,6 +27,7 @@ from hdpea.dataset.options import GroundTruthOptions
 from hdpea.meshing import Mesh
 from hdpea.normals import oriented_surface
 from hdpea.options import MeshingOptions, Options, RefinementOptions
+from hdpea.outputs import replacing
 from hdpea.refinement import refine_mesh
 from hdpea.surface import Surface
 
@@ -70,15 +73,28 @@ def scores(
     return plain.report.meshing["t3_kept"] / len(plain.faces), before["G"], after["CDs"]
 
 
-def run_mesh(path: Path, baselines: Path, vertices: int) -> list[Scores]:
-    """Return the scores of one mesh, variant by variant."""
+def run_mesh(path: Path, baselines: Path, vertices: int) -> dict[str, Scores]:
+    """Return the scores of one mesh by variant."""
     metrics = load_metrics(baselines)
     sampled = Sampled.of(path, metrics)
     surface = oriented_surface(sampled.points, sampled.normals).surface
-    rows = []
+    rows = {}
     for name, options in variants().items():
-        rows.append(scores(sampled, surface, options, vertices, metrics))
-        click.echo(f"{path.stem}, {name}: T3 {rows[-1][0]:.4f}, G {rows[-1][1]:.4f}, CDs {rows[-1][2]:.4f}", err=True)
+        rows[name] = t3, g, cds = scores(sampled, surface, options, vertices, metrics)
+        click.echo(f"{path.stem}, {name}: T3 {t3:.4f}, G {g:.4f}, CDs {cds:.4f}", err=True)
+    return rows
+
+
+def run_once(path: Path, baselines: Path, vertices: int, save: Path | None) -> dict[str, Scores]:
+    """Return the scores of one mesh: those saved before, or else measured and saved."""
+    saved = save / f"{path.stem}.json" if save else None
+    if saved and saved.exists():
+        rows: dict[str, Scores] = json.loads(saved.read_text())
+        return rows
+    rows = run_mesh(path, baselines, vertices)
+    if saved:
+        with replacing(saved) as partial:
+            partial.write_text(json.dumps(rows, indent=1))
     return rows
 
 
@@ -88,16 +104,20 @@ def run_mesh(path: Path, baselines: Path, vertices: int) -> list[Scores]:
 @click.option("--meshes", default=MESHES, show_default=True, help="these, by name")
 @click.option("--vertices", default=5180, show_default=True)
 @click.option("--jobs", default=2, show_default=True, help="meshes at a time")
-def main(*, folder: Path, baselines: Path, meshes: str, vertices: int, jobs: int) -> None:
+@click.option("--save", type=click.Path(path_type=Path), help="folder for scores; meshes that have theirs are done")
+def main(*, folder: Path, baselines: Path, meshes: str, vertices: int, jobs: int, save: Path | None) -> None:
     """Reconstruct meshes of FOLDER from true embeddings of all sorts; score them by the metrics in BASELINES."""
     paths = meshes_of(folder, meshes)
+    if save:
+        save.mkdir(parents=True, exist_ok=True)
     with ProcessPoolExecutor(jobs, mp_context=multiprocessing.get_context("spawn")) as pool:
-        futures = [pool.submit(run_mesh, path, baselines, vertices) for path in paths]
+        futures = [pool.submit(run_once, path, baselines, vertices, save) for path in paths]
         by_mesh = [future.result() for future in futures]
     click.echo(f"Means over {len(paths)} meshes ({', '.join(path.stem for path in paths)}):\n")
     click.echo("| option (its default) | T3, % | G before refinement | CDs | CDs, geometric mean |")
     click.echo("|---|---|---|---|---|")
-    for name, rows in zip(variants(), zip(*by_mesh, strict=True), strict=True):
+    for name in variants():
+        rows = [of_mesh[name] for of_mesh in by_mesh]
         t3, g, cds = np.mean(rows, axis=0)
         geometric = np.exp(np.log([row[2] for row in rows]).mean())
         click.echo(f"| {name} | {100 * t3:.2f} | {g:.3f} | {cds:.3f} | {geometric:.4f} |")
