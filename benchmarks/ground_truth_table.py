@@ -10,15 +10,16 @@ around the defaults of `GroundTruthOptions`. Prints Markdown; two minutes a mesh
 
 from __future__ import annotations
 
-import json
 import multiprocessing
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from types import ModuleType
 
 import click
 import numpy as np
+from keeping import kept
 from oracle import oracle_embedder
 from val_table import ROOT, Sampled, load_metrics, meshes_of
 
@@ -27,7 +28,6 @@ from hdpea.dataset.options import GroundTruthOptions
 from hdpea.meshing import Mesh
 from hdpea.normals import oriented_surface
 from hdpea.options import MeshingOptions, Options, RefinementOptions
-from hdpea.outputs import replacing
 from hdpea.refinement import refine_mesh
 from hdpea.surface import Surface
 
@@ -85,33 +85,18 @@ def run_mesh(path: Path, baselines: Path, vertices: int) -> dict[str, Scores]:
     return rows
 
 
-def run_once(path: Path, baselines: Path, vertices: int, save: Path | None) -> dict[str, Scores]:
-    """Return the scores of one mesh: those saved before, or else measured and saved."""
-    saved = save / f"{path.stem}.json" if save else None
-    if saved and saved.exists():
-        rows: dict[str, Scores] = json.loads(saved.read_text())
-        return rows
-    rows = run_mesh(path, baselines, vertices)
-    if saved:
-        with replacing(saved) as partial:
-            partial.write_text(json.dumps(rows, indent=1))
-    return rows
-
-
 @click.command()
 @click.argument("folder", type=click.Path(exists=True, path_type=Path), default=ROOT / "../shared/data/meshes/val")
 @click.argument("baselines", type=click.Path(exists=True, path_type=Path), default=ROOT / "../shared/baselines")
 @click.option("--meshes", default=MESHES, show_default=True, help="these, by name")
 @click.option("--vertices", default=5180, show_default=True)
 @click.option("--jobs", default=2, show_default=True, help="meshes at a time")
-@click.option("--save", type=click.Path(path_type=Path), help="folder for scores; meshes that have theirs are done")
+@click.option("--save", type=click.Path(path_type=Path), help="folder that keeps scores; what is there is done")
 def main(*, folder: Path, baselines: Path, meshes: str, vertices: int, jobs: int, save: Path | None) -> None:
     """Reconstruct meshes of FOLDER from true embeddings of all sorts; score them by the metrics in BASELINES."""
     paths = meshes_of(folder, meshes)
-    if save:
-        save.mkdir(parents=True, exist_ok=True)
     with ProcessPoolExecutor(jobs, mp_context=multiprocessing.get_context("spawn")) as pool:
-        futures = [pool.submit(run_once, path, baselines, vertices, save) for path in paths]
+        futures = [pool.submit(kept, save, path.stem, partial(run_mesh, path, baselines, vertices)) for path in paths]
         by_mesh = [future.result() for future in futures]
     click.echo(f"Means over {len(paths)} meshes ({', '.join(path.stem for path in paths)}):\n")
     click.echo("| option (its default) | T3, % | G before refinement | CDs | CDs, geometric mean |")
