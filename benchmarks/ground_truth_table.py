@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What each option of the ground truth is worth to a reconstruction from the true embedding.
 
-    python benchmarks/ground_truth_table.py [--meshes bull,trex]
+    python benchmarks/ground_truth_table.py [--meshes bull,trex] [--save DIR]
 
 Meshes are sampled and scored as `val_table.py` does, and reconstructed by the oracle. Options change one at a time,
-around the defaults of `GroundTruthOptions`. Prints Markdown. Needs the `bench` dependency group (`make bench-setup`).
+around the defaults of `GroundTruthOptions`. Prints Markdown; two minutes a mesh, so it can be done in pieces. Needs the
+`bench` dependency group (`make bench-setup`).
 """
 
 from __future__ import annotations
@@ -12,11 +13,13 @@ from __future__ import annotations
 import multiprocessing
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 from types import ModuleType
 
 import click
 import numpy as np
+from keeping import kept
 from oracle import oracle_embedder
 from val_table import ROOT, Sampled, load_metrics, meshes_of
 
@@ -70,15 +73,15 @@ def scores(
     return plain.report.meshing["t3_kept"] / len(plain.faces), before["G"], after["CDs"]
 
 
-def run_mesh(path: Path, baselines: Path, vertices: int) -> list[Scores]:
-    """Return the scores of one mesh, variant by variant."""
+def run_mesh(path: Path, baselines: Path, vertices: int) -> dict[str, Scores]:
+    """Return the scores of one mesh by variant."""
     metrics = load_metrics(baselines)
     sampled = Sampled.of(path, metrics)
     surface = oriented_surface(sampled.points, sampled.normals).surface
-    rows = []
+    rows = {}
     for name, options in variants().items():
-        rows.append(scores(sampled, surface, options, vertices, metrics))
-        click.echo(f"{path.stem}, {name}: T3 {rows[-1][0]:.4f}, G {rows[-1][1]:.4f}, CDs {rows[-1][2]:.4f}", err=True)
+        rows[name] = t3, g, cds = scores(sampled, surface, options, vertices, metrics)
+        click.echo(f"{path.stem}, {name}: T3 {t3:.4f}, G {g:.4f}, CDs {cds:.4f}", err=True)
     return rows
 
 
@@ -88,16 +91,18 @@ def run_mesh(path: Path, baselines: Path, vertices: int) -> list[Scores]:
 @click.option("--meshes", default=MESHES, show_default=True, help="these, by name")
 @click.option("--vertices", default=5180, show_default=True)
 @click.option("--jobs", default=2, show_default=True, help="meshes at a time")
-def main(*, folder: Path, baselines: Path, meshes: str, vertices: int, jobs: int) -> None:
+@click.option("--save", type=click.Path(path_type=Path), help="folder that keeps scores; what is there is done")
+def main(*, folder: Path, baselines: Path, meshes: str, vertices: int, jobs: int, save: Path | None) -> None:
     """Reconstruct meshes of FOLDER from true embeddings of all sorts; score them by the metrics in BASELINES."""
     paths = meshes_of(folder, meshes)
     with ProcessPoolExecutor(jobs, mp_context=multiprocessing.get_context("spawn")) as pool:
-        futures = [pool.submit(run_mesh, path, baselines, vertices) for path in paths]
+        futures = [pool.submit(kept, save, path.stem, partial(run_mesh, path, baselines, vertices)) for path in paths]
         by_mesh = [future.result() for future in futures]
     click.echo(f"Means over {len(paths)} meshes ({', '.join(path.stem for path in paths)}):\n")
     click.echo("| option (its default) | T3, % | G before refinement | CDs | CDs, geometric mean |")
     click.echo("|---|---|---|---|---|")
-    for name, rows in zip(variants(), zip(*by_mesh, strict=True), strict=True):
+    for name in variants():
+        rows = [of_mesh[name] for of_mesh in by_mesh]
         t3, g, cds = np.mean(rows, axis=0)
         geometric = np.exp(np.log([row[2] for row in rows]).mean())
         click.echo(f"| {name} | {100 * t3:.2f} | {g:.3f} | {cds:.3f} | {geometric:.4f} |")

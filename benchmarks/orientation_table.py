@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """How well normals are estimated and oriented, by every way of orienting them.
 
-    python benchmarks/orientation_table.py [--meshes bull,trex] [--cloud FILE --picture DIR]
+    python benchmarks/orientation_table.py [--meshes bull,trex] [--save DIR] [--cloud FILE --picture DIR]
 
 Each mesh of a folder is sampled as `val_table.py` does, and scanned by a simulated sensor; normals are estimated from
 the points, oriented, and compared with the true ones. Also times every way on clouds as they come from scanners, whose
@@ -12,12 +12,14 @@ Prints Markdown. Needs the `bench` dependency group and embreex (`make bench-set
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
+from types import ModuleType
 
 import click
 import numpy as np
+from keeping import kept
 from numpy.typing import NDArray
 from val_table import POINTS, ROOT, Sampled, load_metrics, meshes_of
 
@@ -45,6 +47,9 @@ VIEWS = 6
 
 WAYS = ("auto", "wnnc", "mst", "viewpoint")
 
+Score = tuple[float, float, float]
+"""What came of one cloud: percent of the normals within 90 degrees of the truth, mean angle to it, seconds."""
+
 
 @dataclass(frozen=True)
 class Cloud:
@@ -53,15 +58,6 @@ class Cloud:
     points: Array
     normals: Array
     sensors: Array | None = None
-
-
-@dataclass(frozen=True)
-class Score:
-    """What came of one cloud: share of normals within 90 degrees of the truth, mean angle to it, time."""
-
-    right: float
-    degrees: float
-    seconds: float
 
 
 def noisy(cloud: Cloud, seed: int) -> Cloud:
@@ -87,28 +83,41 @@ def score(cloud: Cloud, way: str) -> Score:
     seconds = time.perf_counter() - start
     cosines = np.einsum("nc,nc->n", surface.normals, cloud.normals)
     degrees = np.degrees(np.arccos(np.clip(cosines, -1, 1)))
-    return Score(100 * float((cosines > 0).mean()), float(degrees.mean()), seconds)
+    return 100 * float((cosines > 0).mean()), float(degrees.mean()), seconds
 
 
-def print_rows(condition: str, clouds: dict[str, Cloud]) -> None:
-    """Print a row for each way of orienting these clouds."""
-    for way in WAYS:
-        if way == "viewpoint" and any(cloud.sensors is None for cloud in clouds.values()):
-            continue
-        scores = {name: score(cloud, way) for name, cloud in clouds.items()}
-        worst = min(scores, key=lambda name: scores[name].right)
-        right = np.mean([each.right for each in scores.values()])
-        degrees = np.mean([each.degrees for each in scores.values()])
-        seconds = np.mean([each.seconds for each in scores.values()])
-        row = [
-            condition,
-            way,
-            f"{right:.2f}",
-            f"{scores[worst].right:.2f} ({worst})",
-            f"{degrees:.1f}",
-            f"{seconds:.1f}",
-        ]
-        click.echo(f"| {' | '.join(row)} |")
+def ways_of(cloud: Cloud) -> tuple[str, ...]:
+    """Return the ways that a cloud can be oriented: towards the sensors only where there were any."""
+    return tuple(way for way in WAYS if way != "viewpoint" or cloud.sensors is not None)
+
+
+def run_mesh(path: Path, metrics: ModuleType) -> dict[str, dict[str, Score]]:
+    """Return the scores of every way on every kind of cloud made of a mesh."""
+    sampled = Sampled.of(path, metrics)
+    clean = Cloud(sampled.points, sampled.normals)
+    clouds = {
+        "clean": clean,
+        f"{NOISE:.1%} noise": noisy(clean, sampled.seed),
+        "scan with holes": scanned(path, 0, sampled.seed),
+        f"the same, {NOISE:.1%} noise": scanned(path, NOISE, sampled.seed),
+    }
+    click.echo(path.stem, err=True)
+    return {kind: {way: score(cloud, way) for way in ways_of(cloud)} for kind, cloud in clouds.items()}
+
+
+def print_meshes(paths: list[Path], baselines: Path, save: Path | None) -> None:
+    """Print how well each way does on every kind of cloud made of the meshes."""
+    metrics = load_metrics(baselines)
+    by_mesh = {path.stem: kept(save, path.stem, partial(run_mesh, path, metrics)) for path in paths}
+    click.echo("| cloud | --orient | within 90 degrees, % | worst mesh, % | mean error, degrees | seconds |")
+    click.echo("|---|---|---|---|---|---|")
+    for kind, of_kind in by_mesh[paths[0].stem].items():
+        for way in of_kind:
+            scores = {name: kinds[kind][way] for name, kinds in by_mesh.items()}
+            worst, (least, *_) = min(scores.items(), key=lambda item: item[1][0])
+            right, degrees, seconds = np.mean(list(scores.values()), axis=0)
+            row = [kind, way, f"{right:.2f}", f"{least:.2f} ({worst})", f"{degrees:.1f}", f"{seconds:.1f}"]
+            click.echo(f"| {' | '.join(row)} |")
 
 
 def print_clouds(paths: list[Path], pictures: Path | None) -> None:
@@ -158,6 +167,7 @@ def draw_sides(path: Path, points: Array, normals: dict[str, Array]) -> None:
 @click.option("--cloud", "clouds", multiple=True, type=click.Path(exists=True, path_type=Path), help="a raw cloud")
 @click.option("--picture", "pictures", type=click.Path(path_type=Path), help="folder for a picture of each raw cloud")
 @click.option("--only-clouds", is_flag=True, help="leave out the meshes")
+@click.option("--save", type=click.Path(path_type=Path), help="folder that keeps scores; what is there is done")
 def main(
     *,
     folder: Path,
@@ -166,31 +176,15 @@ def main(
     clouds: tuple[Path, ...],
     pictures: Path | None,
     only_clouds: bool,
+    save: Path | None,
 ) -> None:
     """Orient the samples of the meshes of FOLDER, and raw clouds."""
     if not only_clouds:
-        print_meshes(folder, baselines, meshes)
+        print_meshes(meshes_of(folder, meshes), baselines, save)
     if pictures is not None:
         pictures.mkdir(parents=True, exist_ok=True)
-    print_clouds(list(clouds), pictures)
-
-
-def print_meshes(folder: Path, baselines: Path, meshes: str | None) -> None:
-    """Print how well each way does on every kind of cloud made of the meshes."""
-    metrics = load_metrics(baselines)
-    sampled = {path.stem: Sampled.of(path, metrics) for path in meshes_of(folder, meshes)}
-    clean = {name: Cloud(each.points, each.normals) for name, each in sampled.items()}
-    seeds = {name: each.seed for name, each in sampled.items()}
-    conditions: dict[str, Callable[[str], Cloud]] = {
-        "clean": lambda name: clean[name],
-        f"{NOISE:.1%} noise": lambda name: noisy(clean[name], seeds[name]),
-        "scan with holes": lambda name: scanned(folder / f"{name}.ply", 0, seeds[name]),
-        f"the same, {NOISE:.1%} noise": lambda name: scanned(folder / f"{name}.ply", NOISE, seeds[name]),
-    }
-    click.echo("| cloud | --orient | within 90 degrees, % | worst mesh, % | mean error, degrees | seconds |")
-    click.echo("|---|---|---|---|---|---|")
-    for condition, made in conditions.items():
-        print_rows(condition, {name: made(name) for name in clean})
+    if clouds:
+        print_clouds(list(clouds), pictures)
 
 
 if __name__ == "__main__":

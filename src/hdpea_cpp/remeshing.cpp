@@ -8,6 +8,7 @@
 #include <CGAL/Polygon_mesh_processing/remesh.h>
 #include <CGAL/Polygon_mesh_processing/shape_predicates.h>
 #include <CGAL/Surface_mesh.h>
+#include <CGAL/boost/graph/Euler_operations.h>
 
 #include <algorithm>
 #include <array>
@@ -24,6 +25,9 @@ namespace {
 namespace pmp = CGAL::Polygon_mesh_processing;
 using Point = CGAL::Exact_predicates_inexact_constructions_kernel::Point_3;
 using SurfaceMesh = CGAL::Surface_mesh<Point>;
+
+/// Of the edge length that is wanted: the ends of a shorter edge are told apart by nothing but rounding.
+constexpr double kNoLength = 1e-9;
 
 /// Whether no two faces run through an edge in the same direction, and none repeats a vertex. Of three faces at an
 /// edge two do, so this is edge-manifold as well.
@@ -50,6 +54,20 @@ SurfaceMesh to_cgal(const PointsRef& vertices, const FacesRef& faces) {
   SurfaceMesh mesh;
   pmp::polygon_soup_to_polygon_mesh(points, triangles, mesh);
   return mesh;
+}
+
+/// Joins vertices that only rounding tells apart. The needles between them have any normal, so they would stay, as
+/// sharp ones, and be split until a vertex has none but faces without area: there CGAL 5.5 crashes (its issue 7345).
+void collapse_edges_without_length(SurfaceMesh& mesh, double edge_length) {
+  const double least = kNoLength * edge_length;
+  for (const auto e : mesh.edges()) {
+    const auto h = mesh.halfedge(e);
+    const double squared = CGAL::squared_distance(mesh.point(mesh.source(h)), mesh.point(mesh.target(h)));
+    if (squared < least * least && CGAL::Euler::does_satisfy_link_condition(e, mesh)) {
+      CGAL::Euler::collapse_edge(e, mesh);
+    }
+  }
+  mesh.collect_garbage();
 }
 
 /// Marks the vertices at which the border turns by more than the angle: CGAL would cut such corners off.
@@ -96,6 +114,7 @@ TriangleMesh remesh_isotropically(const PointsRef& vertices, const FacesRef& fac
           "remeshing needs faces, all of vertices that exist");
   require(consistently_oriented(faces), "remeshing needs at most two faces to an edge, of one orientation");
   SurfaceMesh mesh = to_cgal(vertices, faces);
+  collapse_edges_without_length(mesh, options.edge_length);
   auto sharp = mesh.add_property_map<SurfaceMesh::Edge_index, bool>("e:sharp", false).first;
   pmp::detect_sharp_edges(mesh, options.sharp_angle, sharp);
   unmark_degenerate_faces(mesh, sharp);

@@ -21,7 +21,8 @@ struct TriangleMesh {
 /// Covers the same surface with near-isotropic triangles, by CGAL (Botsch & Kobbelt 2004).
 ///
 /// Sharp edges and borders stay where they are, everything else is relaxed and projected back on the given surface.
-/// Faces may be needles. Vertices where sheets touch (pinched ones) are split.
+/// Faces may be needles. Vertices where sheets touch (pinched ones) are split, vertices that only rounding tells apart
+/// are joined.
 ///
 /// @param vertices  (n, 3), finite
 /// @param faces     (f, 3) indices into vertices, consistently oriented, at most two to an edge

@@ -46,6 +46,12 @@ shapes::Mesh pinched() {
                       {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {2, 0, 3}, {0, 4, 5}, {0, 6, 4}, {4, 6, 5}, {5, 6, 0}});
 }
 
+/// A bent strip with a vertex in its middle that comes twice, a rounding error apart, and two needles between.
+shapes::Mesh doubled_vertex() {
+  return shapes::make({{0, 0, -1}, {0, 0, 0}, {0, 1e-17, 0}, {0, 0, 1}, {1, -2, -1}, {1, -2, 0}, {1, 2, 0}, {1, 2, 1}},
+                      {{1, 6, 0}, {4, 5, 2}, {2, 1, 4}, {1, 0, 4}, {3, 7, 2}, {2, 7, 6}, {2, 6, 1}, {3, 2, 5}});
+}
+
 /// Which share of the edges is between these multiples of a length.
 double share_of_edges(const TriangleMesh& mesh, double length, double least, double most) {
   Index within = 0;
@@ -104,6 +110,16 @@ TEST(Remeshing, SplitsPinchedVertices) {
   EXPECT_TRUE(check.manifold() && check.oriented() && check.closed());
   EXPECT_EQ(check.components, 2);
   EXPECT_EQ(check.euler_characteristic, 4);
+}
+
+TEST(Remeshing, JoinsVerticesThatOnlyRoundingTellsApart) {
+  const auto strip = doubled_vertex();
+  const auto mesh = remeshed(strip, 0.1);  // CGAL 5.5 crashes if they are two
+  const MeshCheck check = check_mesh(mesh.vertices, mesh.faces);
+  EXPECT_TRUE(check.manifold() && check.oriented());
+  EXPECT_EQ(check.euler_characteristic, 1);
+  EXPECT_EQ(check.degenerate_faces, 0);
+  EXPECT_LT(closest_surface_points(strip.vertices, strip.faces, mesh.vertices).distance.maxCoeff(), 1e-9);
 }
 
 TEST(Remeshing, DoesTheSameTwice) {
