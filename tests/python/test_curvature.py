@@ -210,6 +210,30 @@ def test_progress_tells_the_phases_and_can_stop() -> None:
         estimate_curvature(*clouds.torus(1_000), progress=lambda phase, _: phase != "curvature")
 
 
+@METHODS
+def test_a_thinned_cloud_s_tensors_are_carried_over(options: CurvatureOptions, monkeypatch: pytest.MonkeyPatch) -> None:
+    points, normals = clouds.torus(16_000)
+    monkeypatch.setattr("hdpea.curvature.estimation.MOST_POINTS", 8_000)
+    tensors = estimate_curvature(points, normals, options)
+    assert [choice.value for choice in tensors.choices if choice.name == "estimated_at"] == [8_000]
+    assert len(tensors.metric) == 16_000
+    curvatures, direction1 = TORUS.curvature(points)
+    low, _ = tensors.curvature_range
+    inside = (abs(curvatures) > max(low, 0.1)).all(axis=1)
+    assert np.median(abs(abs(tensors.curvatures) / abs(curvatures) - 1)[inside]) < 0.1
+    assert np.percentile(degrees_between(tensors.normals, normals), 99) < 2
+    assert tensors.determined.mean() > 0.99
+    assert np.median(degrees_between(tensors.direction1, direction1)[tensors.determined]) < 1
+    np.testing.assert_allclose(np.linalg.norm(tensors.direction1[tensors.determined], axis=1), 1)
+
+
+def test_more_vertices_than_the_default_thin_less(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("hdpea.curvature.estimation.MOST_POINTS", 1_000)
+    fine = replace(JET, estimation=replace(JET.estimation, vertices=250))
+    tensors = estimate_curvature(*clouds.torus(3_000), fine)
+    assert [choice.value for choice in tensors.choices if choice.name == "estimated_at"] == [2_000]
+
+
 def test_what_cannot_be_estimated_is_refused() -> None:
     with pytest.raises(CannotReconstruct, match="too few"):
         estimate_curvature(clouds.sphere(8)[0])
