@@ -68,6 +68,6 @@ def test_without_a_metric_stretches_are_carried_and_curvatures_unknown() -> None
         normals, direction1, np.tile([3.0, 3.0], (2_000, 1)), np.full((2_000, 2), np.nan), normals[:, 0] > 2
     )
     carried = carried_over(points, estimate, None, points)
-    np.testing.assert_allclose(carried.stretches, 3, rtol=1e-3)
+    np.testing.assert_allclose(carried.stretches, 3, rtol=0.02)
     assert np.isnan(carried.curvatures).all()
     assert not carried.determined.any()

@@ -77,10 +77,10 @@ def _affine(weights: Rows, ways: Rows, normals: Rows) -> Rows:
     bases = _core.tangent_bases_across(normals).reshape(-1, 2, 3)
     with np.errstate(invalid="ignore"):
         share = weights / weights.sum(axis=1, keepdims=True)
-    u = np.einsum("mac,mkc->mka", bases, ways, optimize=True)
-    squares = np.einsum("mk,mka,mkb->mab", share, u, u, optimize=True)
+    u = ways @ bases.swapaxes(1, 2)
+    squares = u.swapaxes(1, 2) @ (share[:, :, None] * u)
     squares += (RIDGE * np.trace(squares, axis1=1, axis2=2) + 1e-300)[:, None, None] * np.eye(2)
-    slope = np.linalg.solve(squares, np.einsum("mk,mka->ma", share, u)[:, :, None])
+    slope = np.linalg.solve(squares, u.swapaxes(1, 2) @ share[:, :, None])
     affine = share * (1 - (u @ slope)[:, :, 0])
     return np.asarray(affine / affine.sum(axis=1, keepdims=True))
 
@@ -117,7 +117,7 @@ def carried_over(points: Rows, estimate: Estimate, metric: Metric | None, others
 def _in_tangent_planes(tensors: Rows, normals: Rows) -> tuple[Rows, Rows]:
     """Return k1, k2 (m, 2), |k1| >= |k2|, and the direction of k1 (m, 3) of symmetric tensors (m, 3, 3)."""
     bases = _core.tangent_bases_across(normals).reshape(-1, 2, 3)
-    inside = np.einsum("nai,nij,nbj->nab", bases, tensors, bases, optimize=True)
+    inside = bases @ tensors @ bases.swapaxes(1, 2)
     middle, half = (inside[:, 0, 0] + inside[:, 1, 1]) / 2, (inside[:, 0, 0] - inside[:, 1, 1]) / 2
     reach = np.hypot(half, inside[:, 0, 1])
     side = np.where(middle < 0, -1, 1)
