@@ -102,6 +102,28 @@ def test_jets_do_not_take_noise_for_directions() -> None:
     assert estimate_curvature(rough, options=JET).determined[inside].mean() < 0.05
 
 
+def test_the_embedding_does_not_take_noise_for_directions() -> None:
+    random = np.random.default_rng(0)
+    rough = np.column_stack([random.random((4_000, 2)), random.normal(0, 0.004, 4_000)])
+    inside = (abs(rough[:, :2] - 0.5) < 0.4).all(axis=1)
+    assert estimate_curvature(rough).determined[inside].mean() < 0.05
+
+
+def test_the_embedding_meets_noise_with_more_neighbors_of_the_normals() -> None:
+    points, _ = clouds.torus(8_000)
+    noisy = points + np.random.default_rng(1).normal(0, 0.02, points.shape)
+    tensors = estimate_curvature(noisy)
+    assert next(choice.value for choice in tensors.choices if choice.name == "normal_neighbors") > 60
+    told = estimate_curvature(noisy, options=replace(EMBEDDING, normals=NormalOptions(normal_neighbors=16)))
+    assert all(choice.name != "normal_neighbors" for choice in told.choices)
+    direction1 = TORUS.curvature(points)[1]
+    steady, plain = (
+        np.median(degrees_between(each.direction1, direction1)[each.determined]) for each in (tensors, told)
+    )
+    assert steady < 5
+    assert steady < 0.6 * plain
+
+
 def test_jets_meet_noise_with_more_neighbors() -> None:
     points, normals = clouds.torus(8_000)
     noisy = points + np.random.default_rng(1).normal(0, 0.01, points.shape)
