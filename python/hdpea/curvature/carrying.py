@@ -26,6 +26,10 @@ AGREEING_COSINE = 0.5
 RIDGE = 1e-2
 """Added to the squared tangent coordinates, in squared radii, lest points on a line leave the map open."""
 
+OUTSIDE = 0.9
+"""Squared mean of the ways to the members over their mean square, from which a point lies off beside them all: an
+outlier takes their mean, since a map would run away. On a border it is 0.7."""
+
 MOSTLY = 0.5
 """Share of the weights from which directions are determined where those of the tensors around are."""
 
@@ -81,19 +85,23 @@ def _affine(weights: Rows, ways: Rows, normals: Rows) -> Rows:
     squares = u.swapaxes(1, 2) @ (share[:, :, None] * u)
     squares += (RIDGE * np.trace(squares, axis1=1, axis2=2) + 1e-300)[:, None, None] * np.eye(2)
     slope = np.linalg.solve(squares, u.swapaxes(1, 2) @ share[:, :, None])
-    affine = share * (1 - (u @ slope)[:, :, 0])
+    along = (u @ slope)[:, :, 0]
+    outside = (share * along).sum(axis=1, keepdims=True) > OUTSIDE
+    affine = share * np.where(outside, 1, 1 - along)
     return np.asarray(affine / affine.sum(axis=1, keepdims=True))
 
 
-def carried_over(points: Rows, estimate: Estimate, metric: Metric | None, others: Rows) -> Estimate:
-    """Return the estimate at other points of the surface: the mean of the curvature tensors around, in the plane there.
+def carried_over(points: Rows, estimate: Estimate, metric: Metric | None, signed: bool, others: Rows) -> Estimate:
+    """Return the estimate at other points of the surface: that of the nearest, along an affine fit to their tensors.
+
+    The tensors are those of curvature if it is `signed`, else those of the metric, which says the same.
 
     Parameters
     ----------
     points, estimate
         The thinned cloud (n, 3), and what is known of it.
     metric
-        Of the stretches; without it, their squares are averaged instead, and curvatures stay unknown.
+        Of the stretches; without it curvatures are not known.
     others
         (m, 3).
     """
@@ -101,15 +109,18 @@ def carried_over(points: Rows, estimate: Estimate, metric: Metric | None, others
     nearest_normals = estimate.normals[interpolated.members[:, 0]]
     normals = np.where(np.isfinite(interpolated.weights[:, :1]), interpolated(estimate.normals), nearest_normals)
     normals /= np.linalg.norm(normals, axis=1, keepdims=True)
-    principal = estimate.stretches**2 if metric is None else estimate.curvatures
+    principal = estimate.curvatures if signed else estimate.stretches**2
     second = np.cross(estimate.normals, estimate.direction1)
     tensors = sum(
         principal[:, [which]] * (direction[:, :, None] * direction[:, None, :]).reshape(-1, 9)
         for which, direction in enumerate((estimate.direction1, second))
     )
     principal, direction1 = _in_tangent_planes(interpolated(np.asarray(tensors)).reshape(-1, 3, 3), normals)
-    stretches = np.sqrt(principal) if metric is None else metric.stretches(principal)
-    curvatures = np.full_like(principal, np.nan) if metric is None else principal
+    if signed and metric is not None:
+        curvatures, stretches = principal, metric.stretches(principal)
+    else:
+        stretches = np.sqrt(principal.clip(min=1))
+        curvatures = np.full_like(stretches, np.nan) if metric is None else metric.curvatures(stretches)
     determined = interpolated(estimate.determined[:, None].astype(np.float64))[:, 0] >= MOSTLY
     return Estimate(normals, direction1, stretches, curvatures, determined, estimate.choices)
 

@@ -82,10 +82,11 @@ def estimate_curvature(
         fitting, choices = _fitting_of_normals(thin, options)
         oriented = oriented_surface(thin.points, thin.normals, fitting, len(kept) / vertices, progress, thin.sensors())
         estimate, metric = _estimate(oriented.surface, vertices, options, progress)
+        signed = options.estimation.method == "jet"
         if len(kept) < len(cloud.points):
-            estimate = _at_all_points(cloud, oriented.surface, estimate, metric)
+            estimate = _at_all_points(cloud, oriented.surface, estimate, metric, signed)
         estimate = replace(estimate, choices=(*choices, *oriented.choices, *estimate.choices))
-        return _in_world(cloud, oriented.surface.frame.diagonal, estimate, metric, options.estimation.method == "jet")
+        return _in_world(cloud, oriented.surface.frame.diagonal, estimate, metric, signed)
 
 
 def _resolution(points: int, vertices: int | None) -> tuple[int, NDArray[np.int64]]:
@@ -107,8 +108,10 @@ def _fitting_of_normals(cloud: PointCloud, options: CurvatureOptions) -> tuple[N
     return replace(options.normals, normal_neighbors=count), (choice,)
 
 
-def _at_all_points(cloud: PointCloud, surface: Surface, estimate: Estimate, metric: Metric | None) -> Estimate:
-    everywhere = carried_over(surface.points_in_unit, estimate, metric, surface.frame.to_unit(cloud.points))
+def _at_all_points(
+    cloud: PointCloud, surface: Surface, estimate: Estimate, metric: Metric | None, signed: bool
+) -> Estimate:
+    everywhere = carried_over(surface.points_in_unit, estimate, metric, signed, surface.frame.to_unit(cloud.points))
     why = f"more would show no finer curvature; carried over to all {len(cloud.points):,} from the nearest"
     choice = Choice("estimated_at", len(surface.points_in_unit), "points", why)
     return replace(everywhere, choices=(choice, *everywhere.choices))
