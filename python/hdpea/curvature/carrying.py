@@ -24,11 +24,8 @@ AGREEING_COSINE = 0.5
 """Least cosine with the nearest one's normal: beyond a crease of 60 degrees, a tensor has no say."""
 
 RIDGE = 1e-2
-"""Added to the squared tangent coordinates, in squared radii, lest points on a line leave the map open."""
-
-OUTSIDE = 0.9
-"""Squared mean of the ways to the members over their mean square, from which a point lies off beside them all: an
-outlier takes their mean, since a map would run away. On a border it is 0.7."""
+"""Added to the squared tangent coordinates, as a share: neighbours on a line leave the map open, and an outlier, which
+has them all to one side, takes about their mean."""
 
 MOSTLY = 0.5
 """Share of the weights from which directions are determined where those of the tensors around are."""
@@ -85,9 +82,7 @@ def _affine(weights: Rows, ways: Rows, normals: Rows) -> Rows:
     squares = u.swapaxes(1, 2) @ (share[:, :, None] * u)
     squares += (RIDGE * np.trace(squares, axis1=1, axis2=2) + 1e-300)[:, None, None] * np.eye(2)
     slope = np.linalg.solve(squares, u.swapaxes(1, 2) @ share[:, :, None])
-    along = (u @ slope)[:, :, 0]
-    outside = (share * along).sum(axis=1, keepdims=True) > OUTSIDE
-    affine = share * np.where(outside, 1, 1 - along)
+    affine = share * (1 - (u @ slope)[:, :, 0])
     return np.asarray(affine / affine.sum(axis=1, keepdims=True))
 
 
