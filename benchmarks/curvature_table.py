@@ -2,10 +2,17 @@
 """How true the estimated curvature tensors are, by every method; prints the tables of docs/curvature.md.
 
     python benchmarks/curvature_table.py [--surfaces cylinder,torus] [--noise 0,0.1%] [--meshes bull,trex]
+        [--weights best.safetensors]
 
 Points are drawn evenly by area of analytic surfaces, and of the meshes of a folder, whose curvature the ground truth of
 `hdpea.dataset` fits to the normals of the mesh itself. Methods get the points alone, with Gaussian noise in shares of
-the diagonal of the bounding box. Every embedding that hdpea has is a row, and so are jets.
+the diagonal of the bounding box. Every embedding that hdpea has is a row (the learned one if there are weights), and so
+are jets.
+
+A mesh has facets, often larger than the length that curvature is measured at; there its curvature depends on where
+exactly one measures. The row `mesh` shows how much: it fits, at the same length, the mesh's own normals at the points
+themselves, instead of at vertices between which the truth is interpolated. Meshes have rows for all points, and for
+those that are sure, where these two fits of the mesh agree on the direction to 10 degrees.
 
 Directions are compared where the true stretching ratio is over 1.5 and the method calls them determined. The true
 ratio is that of the metric, sqrt(clamp(c |k1|) / clamp(c |k2|)); inside the range of the metric nothing is clamped.
@@ -16,7 +23,7 @@ from __future__ import annotations
 
 import time
 import zlib
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -25,18 +32,23 @@ import numpy as np
 from analytic import SURFACES, Samples, samples_of
 from val_table import POINTS, ROOT, read_mesh
 
-from hdpea import CurvatureOptions, CurvatureTensors, estimate_curvature
+from hdpea import CurvatureOptions, CurvatureTensors, _core, estimate_curvature
+from hdpea.curvature.from_embedding import LEAST_RATIO
 from hdpea.curvature.options import EstimationOptions
+from hdpea.curvature.tensors import metric_tensors
 from hdpea.dataset.ground_truth import embed_mesh
-from hdpea.dataset.options import SamplingOptions
+from hdpea.dataset.options import GroundTruthOptions, SamplingOptions
 from hdpea.dataset.sampling import sample_surface
 from hdpea.embedding import EMBEDDERS
 from hdpea.embedding.embedded import Metric
 from hdpea.errors import HdpeaError
 from hdpea.options import EmbeddingOptions, NormalOptions
+from hdpea.surface import NEIGHBORS
+from hdpea.triangles import mesh_area
 
-JET = "jet"
+JET, LEARNED, MESH = "jet", "learned", "mesh"
 CLEAR_RATIO = 1.5
+SURE_DEGREES = 10
 HEADER = (
     "cloud", "noise", "method", "determined, %", "direction, degrees", "ratio, %", "in range, %", "k1, %", "seconds",
 )  # fmt: skip
@@ -54,7 +66,16 @@ class Errors:
     seconds: float
 
 
-def options_of(method: str) -> CurvatureOptions:
+@dataclass(frozen=True)
+class Cloud:
+    """Points of a surface and the truth there; of a mesh also a second fit to it, by which some of them are `sure`."""
+
+    truth: Samples
+    mesh: CurvatureTensors | None = None
+    sure: np.ndarray | None = None
+
+
+def options_of(method: str, weights: str | None) -> CurvatureOptions:
     """Return the defaults of a method: an embedding by its name, or jets; but with the quickest orientation.
 
     Which side is out changes signs, which are not compared, and finding it by winding number takes most of the time.
@@ -62,7 +83,8 @@ def options_of(method: str) -> CurvatureOptions:
     normals = NormalOptions(orient="mst")
     if method == JET:
         return CurvatureOptions(EstimationOptions(method=JET), normals)
-    return CurvatureOptions(normals=normals, embedding=EmbeddingOptions(embedding=method))
+    embedding = EmbeddingOptions(embedding=method, weights=weights if method == LEARNED else None)
+    return CurvatureOptions(normals=normals, embedding=embedding)
 
 
 def metric_of(tensors: CurvatureTensors) -> Metric:
@@ -75,18 +97,30 @@ def metric_of(tensors: CurvatureTensors) -> Metric:
     return Metric(options.metric_scale * diagonal, options.max_stretch)
 
 
-def errors_of(truth: Samples, noise: float, method: str, seed: int) -> Errors:
-    """Estimate the curvature of a noisy cloud, and compare it with the truth."""
-    deviation = noise * np.linalg.norm(np.ptp(truth.points, axis=0))
-    points = truth.points + np.random.default_rng(seed).normal(0, deviation, truth.points.shape)
+def estimate(cloud: Cloud, noise: float, method: str, seed: int, weights: str | None) -> tuple[CurvatureTensors, float]:
+    """Estimate the curvature of a noisy cloud; return it, and the seconds it took."""
+    if method == MESH and cloud.mesh:
+        return cloud.mesh, 0.0
+    points = cloud.truth.points
+    deviation = noise * np.linalg.norm(np.ptp(points, axis=0))
+    noisy = points + np.random.default_rng(seed).normal(0, deviation, points.shape)
     start = time.process_time()
-    tensors = estimate_curvature(points, options=options_of(method))
-    seconds = time.process_time() - start
+    tensors = estimate_curvature(noisy, options=options_of(method, weights))
+    return tensors, time.process_time() - start
+
+
+def degrees_between(a: np.ndarray, b: np.ndarray) -> np.ndarray:
+    """Return the angles (n,) of lines (n, 3), which have no sign."""
+    return np.degrees(np.arccos(abs(np.einsum("nc,nc->n", a, b)).clip(0, 1)))
+
+
+def errors_of(truth: Samples, tensors: CurvatureTensors, seconds: float, looked_at: np.ndarray | None) -> Errors:
+    """Compare an estimate with the truth, at the points `looked_at` (n,) bool."""
     metric, magnitudes = metric_of(tensors), abs(truth.curvatures)
     stretches = metric.stretches(truth.curvatures)
     ratio = stretches[:, 0] / stretches[:, 1]
-    cosines = abs(np.einsum("nc,nc->n", tensors.direction1, truth.direction1)).clip(0, 1)
-    clear, known = ratio > CLEAR_RATIO, np.isfinite(tensors.stretching_ratio)
+    looked_at = np.ones(len(ratio), dtype=bool) if looked_at is None else looked_at
+    clear, known = looked_at & (ratio > CLEAR_RATIO), looked_at & np.isfinite(tensors.stretching_ratio)
     low, high = metric.curvature_range
     in_range = known & (magnitudes > low).all(axis=1) & (magnitudes < high).all(axis=1)
     bent = known & (magnitudes[:, 0] > low) & (magnitudes[:, 0] < high)
@@ -95,7 +129,7 @@ def errors_of(truth: Samples, noise: float, method: str, seed: int) -> Errors:
         off_curvature = 100 * abs(abs(tensors.curvatures[:, 0]) / magnitudes[:, 0] - 1)
     return Errors(
         100.0 * tensors.determined[clear],
-        np.degrees(np.arccos(cosines))[clear & tensors.determined],
+        degrees_between(tensors.direction1, truth.direction1)[clear & tensors.determined],
         off_ratio[bent],
         off_ratio[in_range],
         off_curvature[bent],
@@ -117,27 +151,59 @@ def print_row(cloud: str, noise: float, method: str, errors: Sequence[Errors]) -
     click.echo(f"| {' | '.join(row)} |")
 
 
-def print_rows(name: str, clouds: Iterable[Samples], noises: Sequence[float], methods: Sequence[str]) -> None:
-    """Print a row for each noise and method, of these clouds together."""
-    known = list(clouds)
+def print_rows(
+    name: str, clouds: Sequence[Cloud], noises: Sequence[float], methods: Sequence[str], weights: str | None
+) -> None:
+    """Print a row for each noise and method, of these clouds together; of their sure points another."""
     for noise in noises:
         for method in methods:
             try:
-                errors = [errors_of(truth, noise, method, seed) for seed, truth in enumerate(known)]
+                found = [estimate(cloud, noise, method, seed, weights) for seed, cloud in enumerate(clouds)]
             except HdpeaError as error:
                 click.echo(f"| {name} | {noise:.1%} | {method} | {error.message} |")
-            else:
-                print_row(name, noise, method, errors)
+                continue
+            pairs = list(zip(clouds, found, strict=True))
+            print_row(name, noise, method, [errors_of(cloud.truth, *each, None) for cloud, each in pairs])
+            if all(cloud.sure is not None for cloud in clouds):
+                sure = [errors_of(cloud.truth, *each, cloud.sure) for cloud, each in pairs]
+                print_row(f"{name}, sure points", noise, method, sure)
 
 
-def samples_of_mesh(path: Path, count: int) -> Samples:
+def cloud_of_mesh(path: Path, count: int) -> Cloud:
     """Draw points of a mesh, with its own curvature there."""
     vertices, faces = read_mesh(path)
-    truth = embed_mesh(vertices, faces)
+    embedded = embed_mesh(vertices, faces)
     seed = zlib.crc32(path.stem.encode()) % 100_000
-    points = truth.frame.to_unit(sample_surface(vertices, faces, SamplingOptions(points=count, seed=seed)).points)
-    here = truth.at(points)
-    return Samples(points, here.curvatures, here.direction1)
+    drawn = sample_surface(vertices, faces, SamplingOptions(points=count, seed=seed))
+    points = embedded.frame.to_unit(drawn.points)
+    here = embedded.at(points)
+    area = mesh_area(embedded.frame.to_unit(vertices), faces)
+    again = fit_of_mesh(points, drawn.normals, area)
+    sure = degrees_between(again.direction1, here.direction1) < SURE_DEGREES
+    return Cloud(Samples(points, here.curvatures, here.direction1), again, sure)
+
+
+def fit_of_mesh(points: np.ndarray, normals: np.ndarray, area: float) -> CurvatureTensors:
+    """Fit curvature to true normals at the points (n, 3) themselves, at the length that the truth has."""
+    truth, chosen = GroundTruthOptions(), EmbeddingOptions()
+    neighbors = _core.sheet_neighbors(points, normals, _core.nearest_neighbors(points, NEIGHBORS))
+    fitted = _core.estimate_curvature(
+        points, normals, neighbors, truth.curvature_radius * (area / truth.vertices) ** 0.5
+    )
+    metric = Metric(chosen.metric_scale * float(np.linalg.norm(np.ptp(points, axis=0))), chosen.max_stretch)
+    stretches = metric.stretches(fitted.principal)
+    return CurvatureTensors(
+        points,
+        normals,
+        fitted.direction1,
+        np.cross(normals, fitted.direction1),
+        stretches,
+        fitted.principal,
+        metric_tensors(normals, fitted.direction1, stretches),
+        stretches[:, 0] >= LEAST_RATIO * stretches[:, 1],
+        signed=True,
+        curvature_range=metric.curvature_range,
+    )
 
 
 def listed(text: str) -> list[str]:
@@ -152,17 +218,28 @@ def listed(text: str) -> list[str]:
 @click.option("--meshes", help="only these of the folder, by name: bull,trex; empty: none")
 @click.option("--noise", default="0,0.1%,0.3%", show_default=True, help="standard deviations, of the diagonal")
 @click.option("--methods", default=",".join([*EMBEDDERS, JET]), show_default=True)
-def main(*, folder: Path, points: int, surfaces: str, meshes: str | None, noise: str, methods: str) -> None:
+@click.option("--weights", help="of the learned embedding, which is left out without them")
+def main(
+    *,
+    folder: Path,
+    points: int,
+    surfaces: str,
+    meshes: str | None,
+    noise: str,
+    methods: str,
+    weights: str | None,
+) -> None:
     """Print the errors on analytic surfaces, and on the meshes of FOLDER: median / 90 % of the points."""
     noises = [float(each.rstrip("%")) / (100 if each.endswith("%") else 1) for each in listed(noise)]
+    wanted = [each for each in listed(methods) if each != LEARNED or weights]
     click.echo(f"| {' | '.join(HEADER)} |")
     click.echo("|---" * len(HEADER) + "|")
     for name in listed(surfaces):
-        print_rows(name, [samples_of(SURFACES[name], points)], noises, listed(methods))
+        print_rows(name, [Cloud(samples_of(SURFACES[name], points))], noises, wanted, weights)
     paths = [path for path in sorted(folder.glob("*.ply")) if meshes is None or path.stem in listed(meshes)]
     if paths:
-        clouds = [samples_of_mesh(path, points) for path in paths]
-        print_rows(f"{len(paths)} meshes", clouds, noises, listed(methods))
+        clouds = [cloud_of_mesh(path, points) for path in paths]
+        print_rows(f"{len(paths)} meshes", clouds, noises, [MESH, *wanted], weights)
 
 
 if __name__ == "__main__":

@@ -102,6 +102,27 @@ def test_jets_do_not_take_noise_for_directions() -> None:
     assert estimate_curvature(rough, options=JET).determined[inside].mean() < 0.05
 
 
+def test_the_embedding_does_not_take_noise_for_directions() -> None:
+    random = np.random.default_rng(0)
+    rough = np.column_stack([random.random((4_000, 2)), random.normal(0, 0.004, 4_000)])
+    inside = (abs(rough[:, :2] - 0.5) < 0.4).all(axis=1)
+    assert estimate_curvature(rough).determined[inside].mean() < 0.05
+
+
+def test_the_embedding_meets_noise_with_more_neighbors_of_the_normals() -> None:
+    points, _ = clouds.torus(8_000)
+    noisy = points + np.random.default_rng(1).normal(0, 0.02, points.shape)
+    tensors = estimate_curvature(noisy)
+    assert next(choice.value for choice in tensors.choices if choice.name == "normal_neighbors") > 60
+    told = estimate_curvature(noisy, options=replace(EMBEDDING, normals=NormalOptions(normal_neighbors=16)))
+    assert all(choice.name != "normal_neighbors" for choice in told.choices)
+    direction1 = TORUS.curvature(points)[1]
+    steady, plain = (
+        np.median(degrees_between(each.direction1, direction1)[each.determined]) for each in (tensors, told)
+    )
+    assert steady < 5 < plain
+
+
 def test_jets_meet_noise_with_more_neighbors() -> None:
     points, normals = clouds.torus(8_000)
     noisy = points + np.random.default_rng(1).normal(0, 0.01, points.shape)
@@ -208,6 +229,30 @@ def test_progress_tells_the_phases_and_can_stop() -> None:
     assert changes == ["normals", "embedding", "curvature"]
     with pytest.raises(Interrupted):
         estimate_curvature(*clouds.torus(1_000), progress=lambda phase, _: phase != "curvature")
+
+
+@METHODS
+def test_a_thinned_cloud_s_tensors_are_carried_over(options: CurvatureOptions, monkeypatch: pytest.MonkeyPatch) -> None:
+    points, normals = clouds.torus(16_000)
+    monkeypatch.setattr("hdpea.curvature.estimation.MOST_POINTS", 8_000)
+    tensors = estimate_curvature(points, normals, options)
+    assert [choice.value for choice in tensors.choices if choice.name == "estimated_at"] == [8_000]
+    assert len(tensors.metric) == 16_000
+    curvatures, direction1 = TORUS.curvature(points)
+    low, _ = tensors.curvature_range
+    inside = (abs(curvatures) > max(low, 0.1)).all(axis=1)
+    assert np.median(abs(abs(tensors.curvatures) / abs(curvatures) - 1)[inside]) < 0.1
+    assert np.percentile(degrees_between(tensors.normals, normals), 99) < 2
+    assert tensors.determined.mean() > 0.99
+    assert np.median(degrees_between(tensors.direction1, direction1)[tensors.determined]) < 1
+    np.testing.assert_allclose(np.linalg.norm(tensors.direction1[tensors.determined], axis=1), 1)
+
+
+def test_more_vertices_than_the_default_thin_less(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("hdpea.curvature.estimation.MOST_POINTS", 1_000)
+    fine = replace(JET, estimation=replace(JET.estimation, vertices=250))
+    tensors = estimate_curvature(*clouds.torus(3_000), fine)
+    assert [choice.value for choice in tensors.choices if choice.name == "estimated_at"] == [2_000]
 
 
 def test_what_cannot_be_estimated_is_refused() -> None:

@@ -3,21 +3,32 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 from numpy.typing import NDArray
 
+from hdpea.curvature.carrying import carried_over
 from hdpea.curvature.from_embedding import estimate_from_embedding
 from hdpea.curvature.from_jets import estimate_from_jets
-from hdpea.curvature.options import CurvatureOptions
+from hdpea.curvature.options import (
+    MOST_NORMAL_NEIGHBORS,
+    MOST_POINTS,
+    NORMAL_NEIGHBORS_PER_NOISE,
+    CurvatureOptions,
+)
 from hdpea.curvature.tensors import CurvatureTensors, Estimate, metric_tensors
 from hdpea.embedding import embed_surface
 from hdpea.embedding.embedded import Metric
 from hdpea.errors import core_errors_translated
-from hdpea.normals import OrientedSurface, oriented_surface
-from hdpea.options import MeshingOptions
+from hdpea.noise import noise_in_spacings
+from hdpea.normals import ORIENTATION_NEIGHBORS, oriented_surface
+from hdpea.options import POINTS_PER_VERTEX, NormalOptions
 from hdpea.progress import ProgressCallback, tell
 from hdpea.reading.cloud import PointCloud, cleaned, from_arrays
+from hdpea.report import Choice
 from hdpea.surface import Surface
+from hdpea.thinning import thinned
 from hdpea.threads import limited_threads
 
 
@@ -66,11 +77,44 @@ def estimate_curvature(
     options = options or CurvatureOptions()
     with limited_threads(options.threads), core_errors_translated():
         cloud = cleaned(from_arrays(points, normals, sensors))
-        vertices = MeshingOptions(vertices=options.estimation.vertices).vertices_of(len(cloud.points))
-        per_vertex = len(cloud.points) / vertices
-        oriented = oriented_surface(cloud.points, cloud.normals, options.normals, per_vertex, progress, cloud.sensors())
+        vertices, kept = _resolution(len(cloud.points), options.estimation.vertices)
+        thin = cloud.at(kept)
+        fitting, choices = _fitting_of_normals(thin, options)
+        oriented = oriented_surface(thin.points, thin.normals, fitting, len(kept) / vertices, progress, thin.sensors())
         estimate, metric = _estimate(oriented.surface, vertices, options, progress)
-        return _in_world(cloud, oriented, estimate, metric, options.estimation.method == "jet")
+        signed = options.estimation.method == "jet"
+        if len(kept) < len(cloud.points):
+            estimate = _at_all_points(cloud, oriented.surface, estimate, metric, signed)
+        estimate = replace(estimate, choices=(*choices, *oriented.choices, *estimate.choices))
+        return _in_world(cloud, oriented.surface.frame.diagonal, estimate, metric, signed)
+
+
+def _resolution(points: int, vertices: int | None) -> tuple[int, NDArray[np.int64]]:
+    """Return the vertices of a mesh that shows as much detail, and the rows of the points to estimate at."""
+    vertices = vertices or max(min(points, MOST_POINTS) // POINTS_PER_VERTEX, 12)
+    return vertices, thinned(points, max(MOST_POINTS, POINTS_PER_VERTEX * vertices))
+
+
+def _fitting_of_normals(cloud: PointCloud, options: CurvatureOptions) -> tuple[NormalOptions, tuple[Choice, ...]]:
+    """Fit normals to more neighbours the noisier the cloud: curvature is their change, which shows noise the most."""
+    given = cloud.normals is not None and cloud.normals.any(axis=1).all() and options.normals.normals != "estimate"
+    if given or options.normals.normal_neighbors is not None or options.estimation.method == "jet":
+        return options.normals, ()
+    noise = noise_in_spacings(cloud.points - cloud.points.mean(axis=0))
+    count = min(round(NORMAL_NEIGHBORS_PER_NOISE * noise), MOST_NORMAL_NEIGHBORS)
+    if count <= ORIENTATION_NEIGHBORS:
+        return options.normals, ()
+    choice = Choice("normal_neighbors", count, "points", f"the points are {noise:.2g} spacings off a smooth surface")
+    return replace(options.normals, normal_neighbors=count), (choice,)
+
+
+def _at_all_points(
+    cloud: PointCloud, surface: Surface, estimate: Estimate, metric: Metric | None, signed: bool
+) -> Estimate:
+    everywhere = carried_over(surface.points_in_unit, estimate, metric, signed, surface.frame.to_unit(cloud.points))
+    why = f"more would show no finer curvature; carried over to all {len(cloud.points):,} from the nearest"
+    choice = Choice("estimated_at", len(surface.points_in_unit), "points", why)
+    return replace(everywhere, choices=(choice, *everywhere.choices))
 
 
 def _estimate(
@@ -87,9 +131,8 @@ def _estimate(
 
 
 def _in_world(
-    cloud: PointCloud, oriented: OrientedSurface, estimate: Estimate, metric: Metric | None, signed: bool
+    cloud: PointCloud, diagonal: float, estimate: Estimate, metric: Metric | None, signed: bool
 ) -> CurvatureTensors:
-    diagonal = oriented.surface.frame.diagonal
     direction1 = np.where(estimate.determined[:, None], estimate.direction1, 0.0)
     low, high = (0.0, np.inf) if signed else metric.curvature_range if metric else (np.nan, np.nan)
     return CurvatureTensors(
@@ -103,7 +146,7 @@ def _in_world(
         determined=estimate.determined,
         signed=signed,
         curvature_range=(low / diagonal, high / diagonal),
-        choices=(*oriented.choices, *estimate.choices),
+        choices=estimate.choices,
         notes=(*cloud.notes, *_notes(estimate)),
     )
 

@@ -11,11 +11,22 @@ from hdpea.options import POINTS_PER_VERTEX, Checked, EmbeddingOptions, NormalOp
 EMBEDDING_NEIGHBORS = 40
 """Of the embedding's metric; the paper has 6. With noise more is better, without it makes no difference."""
 
+NORMAL_NEIGHBORS_PER_NOISE, MOST_NORMAL_NEIGHBORS = 400, 200
+"""Of the normals that the embedding bends by: for each spacing of noise, and the most.
+
+A plane's slope is off by 2 sqrt(pi) noise / (spacing n) with n neighbours: so by half a degree."""
+
 JET_NEIGHBORS = 24
 """Of a jet where the points are clean: fewer are no better."""
 
 MOST_JET_NEIGHBORS = 216
 """Of a jet where they are noisy."""
+
+MOST_POINTS = 100_000
+"""Points that tensors are estimated at, unless more vertices are asked for; a larger cloud is thinned.
+
+Eight for each of 12,500 vertices, which lie 0.7 % of the diagonal apart on a typical surface: about the smallest radius
+of curvature that the metric can express, 1/128 of the diagonal."""
 
 
 @dataclass(frozen=True)
@@ -36,7 +47,8 @@ class EstimationOptions(Checked):
     vertices: int | None = option(
         None,
         f"the embedding shows as much detail as a mesh of so many vertices; default: one for every {POINTS_PER_VERTEX} "
-        "points",
+        f"points, at most {MOST_POINTS // POINTS_PER_VERTEX:,}; a cloud of more than {MOST_POINTS:,} points and more "
+        f"than {POINTS_PER_VERTEX} for each vertex is thinned to these, and tensors are carried over to all points",
         minimum=4,
     )
 

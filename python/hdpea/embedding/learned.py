@@ -7,17 +7,14 @@ from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
 from hdpea import _core
 from hdpea.dataset.options import GroundTruthOptions
 from hdpea.embedding.embedded import Embedded, Metric
-from hdpea.network.averaging import carried_over
-from hdpea.network.inference import predict_psi
-from hdpea.network.weights import SHIPPED, read_weights
 from hdpea.options import EmbeddingOptions
 from hdpea.report import Choice
 from hdpea.surface import NEIGHBORS, Surface, area_shown
+from hdpea.thinning import thinned
 
 PER_VERTEX = (4.0, 12.0)
 """Points for each vertex that training has seen: 20,000 to 60,000 for 5,000 vertices."""
@@ -38,12 +35,17 @@ def embed_learned(
     Interrupted
         If `progress` cancels.
     """
+    # torch takes more than a second to load, and no other embedding needs it.
+    from hdpea.network.averaging import carried_over
+    from hdpea.network.inference import predict_psi
+    from hdpea.network.weights import SHIPPED, read_weights
+
     points, normals, neighbors = surface.points_in_unit, surface.normals, surface.neighbors
     network = read_weights(SHIPPED if options.weights is None else Path(options.weights))
     least, most = PER_VERTEX
     shown = min(vertices, len(points) / least)
     spacing = float(np.sqrt(area_shown(points, neighbors) / shown))
-    kept = _thinned(len(points), most * shown)
+    kept = thinned(len(points), round(most * shown))
     if len(kept) < len(points):
         points, normals = points[kept], normals[kept]
         neighbors = _core.sheet_neighbors(points, normals, _core.nearest_neighbors(points, NEIGHBORS))
@@ -56,10 +58,3 @@ def embed_learned(
     truth = GroundTruthOptions()  # what networks are trained on, unless its options are changed
     metric = Metric(truth.metric_scale * spacing, truth.max_stretch)
     return Embedded(np.hstack([surface.points_in_unit, psi]), choices, metric)
-
-
-def _thinned(count: int, most: float) -> NDArray[np.int64]:
-    """Return rows, ascending: all of `count`, or `most` of them at random, always the same."""
-    if count <= most:
-        return np.arange(count)
-    return np.sort(np.random.default_rng(0).permutation(count)[: round(most)])

@@ -60,6 +60,15 @@ class PointCloud:
             return None
         return np.stack([np.asarray(self.attributes[name], dtype=np.float64) for name in SENSOR_NAMES], axis=1)
 
+    def at(self, rows: NDArray[np.int64]) -> PointCloud:
+        """Return the cloud of the points in these rows (m,)."""
+        return replace(
+            self,
+            points=np.ascontiguousarray(self.points[rows]),
+            normals=None if self.normals is None else self.normals[rows],
+            attributes={name: values[rows] for name, values in self.attributes.items()},
+        )
+
     def counts(self) -> dict[str, int]:
         """Return how many points there are, and what was wrong with others, by name."""
         return {
@@ -138,15 +147,14 @@ def cleaned(cloud: PointCloud) -> PointCloud:
             f"none of its {len(cloud.points)} points is finite.", "NaN and infinite points are dropped."
         )
     kept = finite[first_occurrences(cloud.points[finite])]
-    normals = None if cloud.normals is None else unit_or_zero(cloud.normals[kept])
+    chosen = cloud.at(kept)
+    normals = None if chosen.normals is None else unit_or_zero(chosen.normals)
     usable = 0 if normals is None else int(normals.any(axis=1).sum())
     non_finite, duplicates = len(cloud.points) - len(finite), len(finite) - len(kept)
     unusable = 0 if normals is None else len(kept) - usable
     return replace(
-        cloud,
-        points=np.ascontiguousarray(cloud.points[kept]),
+        chosen,
         normals=normals if usable else None,
-        attributes={name: values[kept] for name, values in cloud.attributes.items()},
         dropped_non_finite=non_finite,
         dropped_duplicates=duplicates,
         unusable_normals=unusable,
