@@ -33,8 +33,11 @@ Exit codes: 0 ok, 2 usage or a library is missing, 3 no such suite or meshes,
     multiple=True,
     help="only this one of the suite; may be repeated",
 )
+@click.option("--models", cls=GroupedOption, type=int, help="how many, evenly over their names; 0: all")
 @quiet_option
-def command(*, suite: str, output: Path, meshes: str | None, methods: tuple[str, ...], quiet: bool) -> None:
+def command(
+    *, suite: str, output: Path, meshes: str | None, methods: tuple[str, ...], models: int | None, quiet: bool
+) -> None:
     """Run the methods of SUITE on points of true meshes, measure what they make, and compare it in OUT.
 
     SUITE is quick, sampling, scans, robustness, normals, points or sizes, or a TOML file of your
@@ -51,7 +54,7 @@ def command(*, suite: str, output: Path, meshes: str | None, methods: tuple[str,
     from hdpea.benchmark.suite_file import read_suite
     from hdpea.picture import check_drawing
 
-    wanted = read_suite(suite, methods)
+    wanted = read_suite(suite, methods, models)
     where = meshes or wanted.meshes
     if not where:
         raise UsageError("The suite does not say where the meshes are.", "Add --meshes FOLDER.")
