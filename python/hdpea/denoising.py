@@ -20,7 +20,8 @@ def denoised(
 
     Moving least squares (Alexa et al., 2003): each point is moved along its normal onto the quadric that fits its
     neighbours of the same sheet, those of another direction counting less, so that edges stay. The points keep their
-    order and frame, and are always fitted as they were given: more rounds do not shrink the shape.
+    order and frame, and are always fitted as they were given: more rounds do not shrink the shape. Two sheets that
+    face the same way within the reach of the neighbours are drawn to each other.
 
     With ``denoise="none"`` the surface is returned as it is.
     """

@@ -80,11 +80,10 @@ def test_the_edges_of_a_box_stay_sharp() -> None:
     assert np.einsum("nc,nc->n", normals, box[1]).min() > 0.98
 
 
-@pytest.mark.parametrize("facing", [1, -1])
-def test_two_sheets_do_not_collapse(facing: float) -> None:
-    sheets = clouds.two_sheets(POINTS, spacings_apart=3, facing=facing)
+def test_the_two_sides_of_a_thin_wall_do_not_collapse() -> None:
+    sheets = clouds.two_sheets(POINTS, spacings_apart=3, facing=-1)
     points, _ = after(sheets)
-    assert np.linalg.norm(points - sheets[0], axis=1).max() < 1e-6  # of a gap of 0.08
+    assert np.linalg.norm(points - sheets[0], axis=1).max() < 1e-6  # of a wall of 0.08
 
 
 def test_the_order_of_the_points_does_not_matter() -> None:

@@ -45,7 +45,7 @@ def read_suite(name: str, only: Sequence[str] = (), models: int | None = None) -
         library is missing.
     """
     if name in shipped_suites():
-        return _suite(name, (_shipped() / f"{name}.toml").read_text(), Path(), only, models)
+        return _suite(name, (_shipped() / f"{name}.toml").read_text(), Path(str(_shipped())), only, models)
     path = Path(name)
     if path.suffix != ".toml":
         raise UnreadableInput(
