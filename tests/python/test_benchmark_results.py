@@ -7,6 +7,7 @@ import csv
 import re
 import shutil
 import subprocess
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 from xml.etree import ElementTree
@@ -101,6 +102,12 @@ def test_results_say_where_they_come_from(monkeypatch: pytest.MonkeyPatch) -> No
     told = results_in_markdown(SUITE, RECORDS, {})
     assert "2 models: a, b." in told
     assert f"hdpea {version()}" in told
+    of_two = [
+        replace(RECORDS[0], code="hdpea 1"),
+        replace(RECORDS[1], code="hdpea 2"),
+        replace(RECORDS[2], code="hdpea 1"),
+    ]
+    assert "hdpea 1 and hdpea 2, " in results_in_markdown(SUITE, of_two, {})
     monkeypatch.setenv("PATH", "")  # no git
     assert commit() == ""
 

@@ -13,6 +13,7 @@ from typing import TypeVar
 from hdpea.benchmark.clouds import make_cloud, write_cloud
 from hdpea.benchmark.methods import Cloud
 from hdpea.benchmark.methods.folder import made_elsewhere
+from hdpea.benchmark.provenance import code
 from hdpea.benchmark.record import Record, file_name, key_of, read_record, write_record
 from hdpea.benchmark.rendering import compare_renderings
 from hdpea.benchmark.running import Task, run
@@ -122,7 +123,7 @@ def _planned(suite: Suite, model: Model, given: SuiteInput, method: SuiteMethod,
     of_points = (suite.options.seed, asdict(given), model.source.sha256())
     measured = (asdict(model.options), suite.options.rendered)
     key = key_of(version(), name, of_points, method.method, dict(method.values), content, vertices, measured)
-    return Record(name, given.name, method.name, vertices, key)
+    return Record(name, given.name, method.name, vertices, key, code())
 
 
 def _cloud(suite: Suite, model: Model, given: SuiteInput, folder: Path) -> Cloud | HdpeaError:

@@ -7,7 +7,9 @@ import os
 import platform
 import shutil
 import subprocess
+from collections.abc import Iterable
 from datetime import UTC, datetime
+from functools import cache
 from pathlib import Path
 
 from hdpea.version import version
@@ -15,12 +17,18 @@ from hdpea.version import version
 HERE = Path(__file__).parent
 
 
-def provenance() -> str:
-    """Return the version, the commit if this is a checkout of hdpea, the machine and the day."""
+def provenance(codes: Iterable[str]) -> str:
+    """Return the code that the runs were done by (``code``, of each run), the machine and the day."""
     cores, day = os.cpu_count(), datetime.now(UTC).date().isoformat()
+    known = " and ".join(each for each in dict.fromkeys(codes) if each)
+    return f"{known or code()}, {platform.system()} {platform.machine()}, {cores} cores, {day}"
+
+
+@cache
+def code() -> str:
+    """Return the version, and the commit if this is a checkout of hdpea."""
     built_from = commit()
-    code = f"hdpea {version()}" + (f" (commit {built_from})" if built_from else "")
-    return f"{code}, {platform.system()} {platform.machine()}, {cores} cores, {day}"
+    return f"hdpea {version()}" + (f" (commit {built_from})" if built_from else "")
 
 
 def commit() -> str:

@@ -38,7 +38,7 @@ def write_results(folder: Path, suite: Suite, records: Sequence[Record], gallery
             partial.write_text(svg)
     with replacing(folder / "results.md") as partial:
         partial.write_text(results_in_markdown(suite, records, curves))
-    subtitle = [provenance() + ".", models_sentence(records), unit_sentence(suite), MEANS]
+    subtitle = [provenance(each.code for each in records) + ".", models_sentence(records), unit_sentence(suite), MEANS]
     write_page(folder / "index.html", suite, records, gallery, curves, subtitle)
 
 
@@ -58,7 +58,7 @@ def results_in_markdown(suite: Suite, records: Sequence[Record], curves: dict[st
     """Return the whole of results.md."""
     parts = [
         f"# {suite.options.title or suite.name}",
-        f"{provenance()}. {models_sentence(records)}",
+        f"{provenance(each.code for each in records)}. {models_sentence(records)}",
         f"{unit_sentence(suite)} {MEANS}",
     ]
     for given in suite.inputs:
