@@ -100,7 +100,7 @@ def test_columns_without_a_value_are_left_out() -> None:
 
 def test_results_say_where_they_come_from(monkeypatch: pytest.MonkeyPatch) -> None:
     told = results_in_markdown(SUITE, RECORDS, {})
-    assert "2 models: a, b." in told
+    assert "Models (2): a, b." in told
     assert f"hdpea {version()}" in told
     of_two = [
         replace(RECORDS[0], code="hdpea 1"),

@@ -45,7 +45,7 @@ def write_results(folder: Path, suite: Suite, records: Sequence[Record], gallery
 def models_sentence(records: Sequence[Record]) -> str:
     """Return a sentence that names the models."""
     models = list(dict.fromkeys(each.model for each in records))
-    return f"{len(models)} models: {', '.join(models)}."
+    return f"Models ({len(models)}): {', '.join(models)}."
 
 
 def unit_sentence(suite: Suite) -> str:
