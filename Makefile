@@ -24,7 +24,7 @@ PACKAGE_SOURCES := CMakeLists.txt pyproject.toml $(shell find src python -type f
 CPP_SOURCES := $(shell find src tests/cpp -name '*.[ch]pp')
 
 .NOTPARALLEL:
-.PHONY: help setup demo test lint format core sanitize pytest bench-setup clean debian
+.PHONY: help setup demo test lint format core sanitize pytest bench-setup results clean debian
 
 help:
 	@echo "make demo      reconstruct two real scans into $(DEMO)/"
@@ -69,6 +69,12 @@ setup: debian $(VENV)/.package
 bench-setup: setup
 	$(BIN)/pip install -qq -c $(CONSTRAINTS) --group bench
 	$(BIN)/pip install -qq -c $(CONSTRAINTS) --no-build-isolation '.[benchmark,dataset,picture]'
+
+# One suite into docs/results/SUITE/: make results SUITE=quick MESHES=meshes/ [MODELS="--models 5"]
+results: bench-setup
+	$(BIN)/hdpea benchmark $(SUITE) build/results/$(SUITE) --meshes $(MESHES) $(MODELS)
+	@mkdir -p docs/results/$(SUITE)
+	find build/results/$(SUITE) -maxdepth 1 \( -name results.md -o -name "*.svg" \) -exec cp -t docs/results/$(SUITE) {} +
 
 # ---- demo ------------------------------------------------------------------------------------------
 

@@ -81,6 +81,18 @@ class NormalOptions(Checked):
 
 
 @dataclass(frozen=True)
+class DenoisingOptions(Checked):
+    """How noise is taken from the points (``hdpea.denoising``)."""
+
+    denoise: str = option(
+        "none",
+        "mls: first move each point onto the quadric that fits its neighbours (moving least squares)",
+        choices=("none", "mls"),
+    )
+    denoise_neighbors: int = option(80, "mls: nearest points that it is fitted to", minimum=6)
+
+
+@dataclass(frozen=True)
 class EmbeddingOptions(Checked):
     """How the cloud is embedded in R^8 (``hdpea.embedding``)."""
 
@@ -160,6 +172,7 @@ class Options(Checked):
     """Everything ``hdpea.reconstruct`` can be told."""
 
     normals: NormalOptions = NormalOptions()
+    denoising: DenoisingOptions = DenoisingOptions()
     embedding: EmbeddingOptions = EmbeddingOptions()
     particles: ParticleOptions = ParticleOptions()
     meshing: MeshingOptions = MeshingOptions()

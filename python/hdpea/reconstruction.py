@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hdpea import _core
+from hdpea.denoising import denoised
 from hdpea.embedding import Embedder, embed_surface
 from hdpea.errors import HdpeaError, UsageError, core_errors_translated
 from hdpea.meshing import Mesh, extract_mesh
@@ -24,8 +25,8 @@ from hdpea.surface import Surface
 from hdpea.tangents import tangent_bases
 from hdpea.threads import limited_threads
 
-PHASES = ("normals", "embedding", "particles", "meshing", "refinement", "measuring")
-"""The phases that ``progress`` hears of, in order."""
+PHASES = ("normals", "denoising", "embedding", "particles", "meshing", "refinement", "measuring")
+"""The phases that ``progress`` hears of, in order; of denoising only if it is asked for."""
 
 BUDGET_TOLERANCE = 0.01
 """Share of the vertices or faces asked for by which the mesh may miss them."""
@@ -109,7 +110,9 @@ def reconstruct(
                 cloud.points, cloud.normals, options.normals, points_per_vertex, progress, cloud.sensors()
             )
         _tell_of_cloud(report, cloud, oriented)
-        mesh = _mesh_of(oriented.surface, report, progress, embedder)
+        with report.clock.stage("denoising"):
+            surface = denoised(oriented.surface, options.denoising, progress)
+        mesh = _mesh_of(surface, report, progress, embedder)
         with report.clock.stage("measuring"):
             tell(progress, "measuring", 0)
             _measure(mesh, oriented.surface, report)

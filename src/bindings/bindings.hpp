@@ -18,6 +18,7 @@ void register_farthest_point_sampling(nb::module_& module);
 void register_hole_filling(nb::module_& module);
 void register_jet_fitting(nb::module_& module);
 void register_mesh_check(nb::module_& module);
+void register_moving_least_squares(nb::module_& module);
 void register_neighbors(nb::module_& module);
 void register_embedding(nb::module_& module);
 void register_manifold_extraction(nb::module_& module);

@@ -8,6 +8,7 @@ NB_MODULE(_core, module) {
   register_hole_filling(module);
   register_jet_fitting(module);
   register_mesh_check(module);
+  register_moving_least_squares(module);
   register_neighbors(module);
   register_embedding(module);
   register_manifold_extraction(module);

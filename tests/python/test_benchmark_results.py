@@ -4,6 +4,10 @@
 from __future__ import annotations
 
 import csv
+import re
+import shutil
+import subprocess
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 from xml.etree import ElementTree
@@ -12,15 +16,18 @@ import numpy as np
 import pytest
 import trimesh
 
+from hdpea.benchmark import provenance as provenance_module
 from hdpea.benchmark.curves import draw_curves
 from hdpea.benchmark.drawing import ERROR_COLORS, RED_FROM, error_colors, subdivided
 from hdpea.benchmark.means import FLOOR, best_of, means_of
+from hdpea.benchmark.provenance import commit
 from hdpea.benchmark.record import Record, key_of, read_record, write_record
 from hdpea.benchmark.results import curves_of, results_in_markdown
 from hdpea.benchmark.suite import Quoted, Suite, SuiteInput, SuiteMethod, SuiteOptions
 from hdpea.benchmark.tables import markdown_table, write_csv
 from hdpea.dataset.options import DegradationOptions, SampleOptions, ScanOptions
 from hdpea.triangles import mesh_area
+from hdpea.version import version
 
 SUITE = Suite(
     "test",
@@ -82,6 +89,43 @@ def test_the_page_of_results_says_all_of_it() -> None:
     told = results_in_markdown(SUITE, RECORDS, {})
     for part in ("## clean, 100 vertices", "far away (quoted) | table 7", "0.496", "theirs@1000: It took longer"):
         assert part in told
+
+
+def test_columns_without_a_value_are_left_out() -> None:
+    (titles, *_) = markdown_table(means_of(RECORDS, SUITE, "clean", 100)).splitlines()
+    assert "| vertices |" in titles
+    assert "NC" not in titles
+    assert "PSNR" not in titles
+
+
+def test_results_say_where_they_come_from(monkeypatch: pytest.MonkeyPatch) -> None:
+    told = results_in_markdown(SUITE, RECORDS, {})
+    assert "Models (2): a, b." in told
+    assert f"hdpea {version()}" in told
+    of_two = [
+        replace(RECORDS[0], code="hdpea 1"),
+        replace(RECORDS[1], code="hdpea 2"),
+        replace(RECORDS[2], code="hdpea 1"),
+    ]
+    assert "hdpea 1 and hdpea 2, " in results_in_markdown(SUITE, of_two, {})
+    monkeypatch.setenv("PATH", "")  # no git
+    assert commit() == ""
+
+
+@pytest.mark.skipif(shutil.which("git") is None, reason="git is not installed")
+def test_the_commit_is_of_hdpea_and_of_nothing_else(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    git = [str(shutil.which("git")), "-c", "user.name=a", "-c", "user.email=a@b.c", "-C", str(tmp_path)]
+    monkeypatch.setattr(provenance_module, "HERE", tmp_path)
+    assert commit() == ""
+    subprocess.run([*git, "init", "-q"], check=True)
+    subprocess.run([*git, "commit", "-q", "--allow-empty", "-m", "first"], check=True)
+    assert commit() == ""  # some other project
+    (tmp_path / "python/hdpea").mkdir(parents=True)
+    (tmp_path / "python/hdpea/version.py").touch()
+    assert re.fullmatch(r"[0-9a-f]{7,}\+", commit())
+    subprocess.run([*git, "add", "."], check=True)
+    subprocess.run([*git, "commit", "-q", "-m", "second"], check=True)
+    assert re.fullmatch(r"[0-9a-f]{7,}", commit())
 
 
 def test_every_score_is_in_the_csv(tmp_path: Path) -> None:

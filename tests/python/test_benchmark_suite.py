@@ -12,6 +12,8 @@ import pytest
 from hdpea.benchmark import methods
 from hdpea.benchmark.suite_file import read_suite, shipped_suites
 from hdpea.cli.benchmark import command
+from hdpea.dataset.sources import find_meshes
+from hdpea.dataset.surface_file import read_surface
 from hdpea.errors import UnreadableInput, UsageError
 from hdpea.lengths import Length
 
@@ -78,6 +80,20 @@ def test_a_suite_says_what_to_run(tmp_path: Path) -> None:
     assert ours.options().embedding.curvature_radius == Length(1, percent=True)
     assert other.options().path == str(tmp_path / "else" / "{model}.ply")
     assert suite.quoted[0].chamfer == 0.5
+
+
+def test_fewer_models_can_be_taken(tmp_path: Path) -> None:
+    assert read_suite(written(tmp_path, SUITE)).options.models == 0
+    assert read_suite(written(tmp_path, SUITE), models=3).options.models == 3
+    with pytest.raises(UsageError, match="models is at least 0"):
+        read_suite(written(tmp_path, SUITE), models=-1)
+
+
+def test_the_failure_case_comes_with_its_mesh() -> None:
+    (source,) = find_meshes(read_suite("failure").meshes)
+    vertices, faces = read_surface(source.path)
+    assert source.name == "slender_pipe"
+    assert len(vertices) - len(faces) / 2 == 0  # Euler: a closed surface with one handle
 
 
 def test_methods_can_be_left_out(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -19,7 +19,8 @@ ORIGINAL = meshes.sample(meshes.box(), 5000)
 TRUTH = ("surface_points", "normals", "psi", "curvatures", "direction1")
 REMOVING: list[dict[str, Any]] = [{"clipped": True}, {"missing": 5}, {"density": "gradient"}, {"density": "striped"}]
 MOVING: list[dict[str, Any]] = [{"noise": 0.005}, {"outliers": 0.05}]
-ALL = {"clipped": True, "missing": 2, "density": "striped", "noise": 0.003, "outliers": 0.02, "normal_noise": 0.002}
+NORMALS: list[dict[str, Any]] = [{"normal_noise": 0.1}, {"flipped": 0.3}]
+ALL = {"clipped": True, "missing": 2, "density": "striped", "noise": 0.003, "outliers": 0.02} | NORMALS[0] | NORMALS[1]
 
 
 def worse(sample: Sample = ORIGINAL, **options: Any) -> Sample:
@@ -40,7 +41,7 @@ def test_by_default_nothing_happens() -> None:
     assert worse() is ORIGINAL
 
 
-@pytest.mark.parametrize("options", [*REMOVING, *MOVING, {"normal_noise": 0.1}, ALL])
+@pytest.mark.parametrize("options", [*REMOVING, *MOVING, *NORMALS, ALL])
 def test_truth_stays_true_row_by_row(options: dict[str, Any]) -> None:
     sample = worse(**options)
     for name in TRUTH:
@@ -85,6 +86,14 @@ def test_normal_noise_is_on_the_estimated_normals_where_there_are_any() -> None:
     given = with_normal_noise(sample, 0.001, np.random.default_rng(0)).estimated_normals
     assert given is not None
     assert ((given * ORIGINAL.normals).sum(axis=1) < -0.99).all()
+
+
+def test_flipped_normals_are_turned_round_and_the_truth_stays() -> None:
+    given = worse(flipped=0.3).estimated_normals
+    assert given is not None
+    agreement = (given * ORIGINAL.normals).sum(axis=1)
+    np.testing.assert_allclose(abs(agreement), 1, atol=1e-6)
+    assert (agreement < 0).mean() == pytest.approx(0.3, abs=1e-3)
 
 
 def test_half_of_the_directions_are_clipped() -> None:

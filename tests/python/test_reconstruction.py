@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -14,7 +15,7 @@ from made import assert_same_bytes, cloud_of, mesh_of, options
 
 from hdpea import reconstruct, reconstruction
 from hdpea.errors import CannotReconstruct, Interrupted, UnreadableInput, UsageError
-from hdpea.options import MeshingOptions, Options
+from hdpea.options import DenoisingOptions, MeshingOptions, Options
 from hdpea.particles import Particles, spread_particles
 from hdpea.reconstruction import PHASES
 
@@ -90,12 +91,13 @@ def test_phases_come_in_order_and_any_of_them_can_stop_the_run() -> None:
         told.append((phase, fraction))
         return True
 
-    reconstruct(points, normals, options(60), listen)
+    every = replace(options(60), denoising=DenoisingOptions(denoise="mls"))
+    reconstruct(points, normals, every, listen)
     assert tuple(dict.fromkeys(phase for phase, _ in told)) == PHASES
     assert all(0 <= fraction <= 1 for _, fraction in told)
     for stopped in PHASES:
         with pytest.raises(Interrupted):
-            reconstruct(points, normals, options(60), lambda phase, _, stopped=stopped: phase != stopped)  # type: ignore[misc]
+            reconstruct(points, normals, every, lambda phase, _, stopped=stopped: phase != stopped)  # type: ignore[misc]
 
 
 def test_the_report_tells_everything(tmp_path: Path) -> None:

@@ -13,9 +13,11 @@ from typing import TypeVar
 from hdpea.benchmark.clouds import make_cloud, write_cloud
 from hdpea.benchmark.methods import Cloud
 from hdpea.benchmark.methods.folder import made_elsewhere
+from hdpea.benchmark.provenance import code
 from hdpea.benchmark.record import Record, file_name, key_of, read_record, write_record
+from hdpea.benchmark.rendering import compare_renderings
 from hdpea.benchmark.running import Task, run
-from hdpea.benchmark.suite import Suite, SuiteInput, SuiteMethod
+from hdpea.benchmark.suite import Suite, SuiteInput, SuiteMethod, SuiteOptions
 from hdpea.dataset.raycasting import require_embree
 from hdpea.dataset.sources import MeshSource, find_meshes
 from hdpea.dataset.surface_file import read_surface
@@ -103,7 +105,7 @@ def _runs_of(suite: Suite, model: Model, folder: Path) -> Iterator[tuple[Record,
                     yield earlier, "is there already"
                     continue
                 cloud = cloud or _cloud(suite, model, given, folder)
-                record = _run(planned, model, cloud, method, suite.options.time_limit, mesh)
+                record = _run(planned, model, cloud, method, suite.options, mesh)
                 write_record(path, record)
                 yield record, _news(record)
 
@@ -119,10 +121,9 @@ def _planned(suite: Suite, model: Model, given: SuiteInput, method: SuiteMethod,
     file = None if method.method != "folder" else made_elsewhere(method.options(), name, given.name, vertices)
     content = sha256(file.read_bytes()).hexdigest() if file is not None and file.is_file() else None
     of_points = (suite.options.seed, asdict(given), model.source.sha256())
-    key = key_of(
-        version(), name, of_points, method.method, dict(method.values), content, vertices, asdict(model.options)
-    )
-    return Record(name, given.name, method.name, vertices, key)
+    measured = (asdict(model.options), suite.options.rendered)
+    key = key_of(version(), name, of_points, method.method, dict(method.values), content, vertices, measured)
+    return Record(name, given.name, method.name, vertices, key, code())
 
 
 def _cloud(suite: Suite, model: Model, given: SuiteInput, folder: Path) -> Cloud | HdpeaError:
@@ -137,12 +138,12 @@ def _cloud(suite: Suite, model: Model, given: SuiteInput, folder: Path) -> Cloud
 
 
 def _run(
-    planned: Record, model: Model, cloud: Cloud | HdpeaError, method: SuiteMethod, time_limit: float, path: Path
+    planned: Record, model: Model, cloud: Cloud | HdpeaError, method: SuiteMethod, options: SuiteOptions, path: Path
 ) -> Record:
     """Run, write the mesh, measure it."""
     if isinstance(cloud, HdpeaError):
         return replace(planned, failed=cloud.message)
-    outcome = run(Task(cloud, method.method, method.values, planned.vertices), time_limit)
+    outcome = run(Task(cloud, method.method, method.values, planned.vertices), options.time_limit)
     if outcome.result is None:
         return replace(planned, failed=outcome.failed, seconds=outcome.seconds)
     made = outcome.result
@@ -150,7 +151,10 @@ def _run(
     write_mesh(path, *made.mesh)
     done = replace(planned, seconds=made.seconds, cpu_seconds=made.cpu_seconds, peak_bytes=made.peak_bytes)
     try:
-        return replace(done, scores=evaluate(*made.mesh, model.truth).as_dict())
+        scores = evaluate(*made.mesh, model.truth).as_dict()
+        if options.rendered:
+            scores["rendering"] = compare_renderings(model.surface, made.mesh)
+        return replace(done, scores=scores)
     except HdpeaError as error:
         return replace(done, failed=f"It cannot be measured: {error.message}")
 

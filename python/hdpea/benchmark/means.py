@@ -49,6 +49,8 @@ COLUMNS = (
     Column("degenerate %", "triangles.degenerate", 100, 2, -1),
     Column("manifold", "topology.manifold", digits=2, better=1),
     Column("watertight", "topology.watertight", digits=2),
+    Column("PSNR (dB)", "rendering.psnr", digits=2, better=1),
+    Column("SSIM", "rendering.ssim", digits=4, better=1),
 )
 TIMES = (("seconds", 1.0, 1), ("cpu_seconds", 1.0, 1), ("peak_bytes", 1e-9, 2))
 TIME_TITLES = ("seconds", "CPU seconds", "GB")

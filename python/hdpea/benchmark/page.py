@@ -10,7 +10,7 @@ from pathlib import Path
 
 from hdpea.benchmark.drawing import ERROR_COLORS, RED_FROM
 from hdpea.benchmark.gallery import Gallery
-from hdpea.benchmark.means import COLUMNS, TIME_TITLES, best_of, means_of
+from hdpea.benchmark.means import means_of
 from hdpea.benchmark.record import Record
 from hdpea.benchmark.suite import Suite
 from hdpea.benchmark.tables import cells_of, quoted_cells
@@ -68,15 +68,8 @@ def write_page(
 def _tables(suite: Suite, records: Sequence[Record]) -> Iterator[str]:
     for given in suite.inputs:
         for vertices in suite.options.vertices:
-            means = means_of(records, suite, given.name, vertices)
-            best = best_of(means)
             yield f"<h2>{escape(given.name)}, {vertices:,} vertices</h2>"
-            rows = [
-                [(row.method, False), (f"{row.finished}/{row.tried}", False)]
-                + [(cell, (row.method, i) in best) for i, cell in enumerate(cells_of(row))]
-                for row in means
-            ]
-            yield _table(["method", "models", *(each.title for each in COLUMNS), *TIME_TITLES], rows)
+            yield _table(*cells_of(means_of(records, suite, given.name, vertices)))
 
 
 def _quoted(suite: Suite) -> Iterator[str]:

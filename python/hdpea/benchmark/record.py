@@ -26,6 +26,8 @@ class Record:
         Wanted.
     key
         Of all that the mesh and its scores depend on; a run is done again when it changes.
+    code
+        The version and commit of hdpea that did it.
     failed
         Why there is no mesh, in a sentence; empty if there is one.
     seconds, cpu_seconds, peak_bytes
@@ -40,6 +42,7 @@ class Record:
     method: str
     vertices: int
     key: str
+    code: str = ""
     failed: str = ""
     seconds: float = 0.0
     cpu_seconds: float = 0.0

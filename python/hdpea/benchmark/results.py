@@ -3,22 +3,19 @@
 
 from __future__ import annotations
 
-import os
-import platform
 from collections.abc import Sequence
-from datetime import UTC, datetime
 from pathlib import Path
 
 from hdpea.benchmark.curves import draw_curves
 from hdpea.benchmark.gallery import Gallery
 from hdpea.benchmark.means import COLUMNS, FLOOR, means_of
 from hdpea.benchmark.page import write_page
+from hdpea.benchmark.provenance import provenance
 from hdpea.benchmark.record import Record
 from hdpea.benchmark.suite import Suite
 from hdpea.benchmark.tables import markdown_table, quoted_table, write_csv
 from hdpea.evaluation.normalization import NORMALIZATIONS
 from hdpea.outputs import replacing
-from hdpea.version import version
 
 MEANS = "Means over the models that every method finished; the best of each column is bold."
 
@@ -41,15 +38,14 @@ def write_results(folder: Path, suite: Suite, records: Sequence[Record], gallery
             partial.write_text(svg)
     with replacing(folder / "results.md") as partial:
         partial.write_text(results_in_markdown(suite, records, curves))
-    write_page(
-        folder / "index.html", suite, records, gallery, curves, [provenance() + ".", unit_sentence(suite), MEANS]
-    )
+    subtitle = [provenance(each.code for each in records) + ".", models_sentence(records), unit_sentence(suite), MEANS]
+    write_page(folder / "index.html", suite, records, gallery, curves, subtitle)
 
 
-def provenance() -> str:
-    """Return the version, the machine and the day."""
-    cores, day = os.cpu_count(), datetime.now(UTC).date().isoformat()
-    return f"hdpea {version()}, {platform.system()} {platform.machine()}, {cores} cores, {day}"
+def models_sentence(records: Sequence[Record]) -> str:
+    """Return a sentence that names the models."""
+    models = list(dict.fromkeys(each.model for each in records))
+    return f"Models ({len(models)}): {', '.join(models)}."
 
 
 def unit_sentence(suite: Suite) -> str:
@@ -60,7 +56,11 @@ def unit_sentence(suite: Suite) -> str:
 
 def results_in_markdown(suite: Suite, records: Sequence[Record], curves: dict[str, str]) -> str:
     """Return the whole of results.md."""
-    parts = [f"# {suite.options.title or suite.name}", f"{provenance()}. {unit_sentence(suite)} {MEANS}"]
+    parts = [
+        f"# {suite.options.title or suite.name}",
+        f"{provenance(each.code for each in records)}. {models_sentence(records)}",
+        f"{unit_sentence(suite)} {MEANS}",
+    ]
     for given in suite.inputs:
         for vertices in suite.options.vertices:
             parts.append(f"## {given.name}, {vertices:,} vertices")

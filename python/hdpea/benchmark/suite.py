@@ -30,6 +30,7 @@ class SuiteOptions(Checked):
     samples: int = option(EvaluationOptions().samples, "points drawn of each surface to measure a result", minimum=1)
     time_limit: float = option(600.0, "seconds after which a run is given up", minimum=0)
     pictures: int = option(4, "how many models are drawn, evenly over their names", minimum=0)
+    rendered: bool = option(False, "compare pictures under one light with the truth's, too: PSNR and SSIM")
     seed: int = option(0, "seed of the points", minimum=0)
     normalization: str = option(
         LONGEST_SIDE.name,

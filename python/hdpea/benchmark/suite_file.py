@@ -26,13 +26,15 @@ def _shipped() -> Any:
     return files("hdpea.benchmark") / "suites"
 
 
-def read_suite(name: str, only: Sequence[str] = ()) -> Suite:
+def read_suite(name: str, only: Sequence[str] = (), models: int | None = None) -> Suite:
     """Read a suite: one that comes with hdpea, by its name, or a TOML file.
 
     Parameters
     ----------
     only
         Names of the methods to take; empty for all.
+    models
+        How many models to take, whatever the suite says.
 
     Raises
     ------
@@ -43,16 +45,16 @@ def read_suite(name: str, only: Sequence[str] = ()) -> Suite:
         library is missing.
     """
     if name in shipped_suites():
-        return _suite(name, (_shipped() / f"{name}.toml").read_text(), Path(), only)
+        return _suite(name, (_shipped() / f"{name}.toml").read_text(), Path(str(_shipped())), only, models)
     path = Path(name)
     if path.suffix != ".toml":
         raise UnreadableInput(
             f"There is no suite {name!r}.", f"Suites are {', '.join(shipped_suites())}, or a file that ends in .toml."
         )
-    return _suite(path.stem, read_bytes(path).decode("utf-8", errors="replace"), path.parent, only)
+    return _suite(path.stem, read_bytes(path).decode("utf-8", errors="replace"), path.parent, only, models)
 
 
-def _suite(name: str, text: str, folder: Path, only: Sequence[str]) -> Suite:
+def _suite(name: str, text: str, folder: Path, only: Sequence[str], models: int | None) -> Suite:
     try:
         content = tomllib.loads(text)
     except ValueError as error:
@@ -63,6 +65,8 @@ def _suite(name: str, text: str, folder: Path, only: Sequence[str]) -> Suite:
     if "vertices" in content:
         given = content["vertices"]
         content["vertices"] = tuple(given) if isinstance(given, list) else (given,)
+    if models is not None:
+        content["models"] = models
     options = SuiteOptions(**_known(content, SuiteOptions, f"The suite {name}"))
     inputs = tuple(_input(each, options) for each in tables["input"])
     methods = tuple(_method(each, folder) for each in _chosen(tables["method"], only, name))

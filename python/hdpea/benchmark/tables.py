@@ -16,21 +16,22 @@ from hdpea.outputs import replacing
 
 def markdown_table(means: Sequence[Means]) -> str:
     """Return the rows as Markdown; the best of each column is bold."""
+    titles, rows = cells_of(means)
+    return _markdown(titles, [[f"**{text}**" if best else text for text, best in row] for row in rows])
+
+
+def cells_of(means: Sequence[Means]) -> tuple[list[str], list[list[tuple[str, bool]]]]:
+    """Return the titles, and each row's cells and whether they are the best; columns without a value are left out."""
     best = best_of(means)
-    rows = [
-        [row.method, f"{row.finished}/{row.tried}"]
-        + [f"**{text}**" if (row.method, i) in best else text for i, text in enumerate(cells_of(row))]
-        for row in means
-    ]
-    return _markdown(["method", "models", *(each.title for each in COLUMNS), *TIME_TITLES], rows)
-
-
-def cells_of(row: Means) -> list[str]:
-    """Return the cells of a row after the method and the count."""
-    cells = [column.text(value) for column, value in zip(COLUMNS, row.values, strict=True)]
-    for (_, scale, digits), value in zip(TIMES, row.times, strict=True):
-        cells.append("" if value is None else f"{scale * value:.{digits}f}")
-    return cells
+    shown = [i for i in range(len(COLUMNS)) if any(row.values[i] is not None for row in means)]
+    rows = []
+    for row in means:
+        cells = [(row.method, False), (f"{row.finished}/{row.tried}", False)]
+        cells += [(COLUMNS[i].text(row.values[i]), (row.method, i) in best) for i in shown]
+        for (_, scale, digits), value in zip(TIMES, row.times, strict=True):
+            cells.append(("" if value is None else f"{scale * value:.{digits}f}", False))
+        rows.append(cells)
+    return ["method", "models", *(COLUMNS[i].title for i in shown), *TIME_TITLES], rows
 
 
 def quoted_cells(quoted: Sequence[Quoted]) -> tuple[list[str], list[list[str]]]:

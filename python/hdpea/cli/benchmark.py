@@ -13,7 +13,7 @@ from hdpea.errors import QualityMissed, UsageError
 EPILOG = """\b
 Examples:
   hdpea benchmark quick results/ --meshes meshes/
-  hdpea benchmark quick results/ --meshes meshes/ --method hdpea
+  hdpea benchmark sizes results/ --meshes meshes/ --models 5 --method hdpea
   hdpea benchmark my_suite.toml results/
 
 \b
@@ -33,14 +33,17 @@ Exit codes: 0 ok, 2 usage or a library is missing, 3 no such suite or meshes,
     multiple=True,
     help="only this one of the suite; may be repeated",
 )
+@click.option("--models", cls=GroupedOption, type=int, help="how many, evenly over their names; 0: all")
 @quiet_option
-def command(*, suite: str, output: Path, meshes: str | None, methods: tuple[str, ...], quiet: bool) -> None:
+def command(
+    *, suite: str, output: Path, meshes: str | None, methods: tuple[str, ...], models: int | None, quiet: bool
+) -> None:
     """Run the methods of SUITE on points of true meshes, measure what they make, and compare it in OUT.
 
-    SUITE is quick, sampling, scans, robustness, normals, points or sizes, or a TOML file of your
-    own: inputs and how they are degraded, methods and their options, numbers of vertices. OUT gets
-    results.csv, results.md, index.html with all tables and pictures in it, and the points and
-    meshes themselves.
+    SUITE is quick, sampling, scans, robustness, normals, points, sizes, two_stage, roughness, large
+    or failure, or a TOML file of your own: inputs and how they are degraded, methods and their
+    options, numbers of vertices. OUT gets results.csv, results.md, index.html with all tables and
+    pictures in it, and the points and meshes themselves.
 
     Each run has a process and a time limit of its own. What was finished before is kept: the same
     command continues a suite that was stopped. Rivals need pip install 'hdpea[benchmark]'.
@@ -51,11 +54,11 @@ def command(*, suite: str, output: Path, meshes: str | None, methods: tuple[str,
     from hdpea.benchmark.suite_file import read_suite
     from hdpea.picture import check_drawing
 
-    wanted = read_suite(suite, methods)
+    wanted = read_suite(suite, methods, models)
     where = meshes or wanted.meshes
     if not where:
         raise UsageError("The suite does not say where the meshes are.", "Add --meshes FOLDER.")
-    if wanted.options.pictures:
+    if wanted.options.pictures or wanted.options.rendered:
         check_drawing()
 
     def told(line: str) -> None:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Samples made worse: noise, outliers, uneven density, missing parts; each function composes with the others.
+"""Samples made worse: noise, outliers, uneven density, missing parts, wrong normals; the functions compose.
 
 What changes the points drops their estimated normals, which were estimated from other points: estimate anew
 afterwards. What removes points leaves fewer of them: where a number is wanted, sample more first.
@@ -40,7 +40,7 @@ def degraded(sample: Sample, options: DegradationOptions) -> Sample:
     UsageError
         If no points are left.
     """
-    clips, cuts, thins, moves, strays, tilts = np.random.default_rng(options.seed).spawn(6)
+    clips, cuts, thins, moves, strays, tilts, flips = np.random.default_rng(options.seed).spawn(7)
     steps: list[tuple[object, Callable[[Sample], Sample]]] = [
         (options.clipped, lambda given: clipped(given, clips)),
         (options.missing, lambda given: with_missing(given, options.missing, options.missing_radius, cuts)),
@@ -48,6 +48,7 @@ def degraded(sample: Sample, options: DegradationOptions) -> Sample:
         (options.noise, lambda given: with_noise(given, options.noise, moves)),
         (options.outliers, lambda given: with_outliers(given, options.outliers, strays)),
         (options.normal_noise, lambda given: with_normal_noise(given, options.normal_noise, tilts)),
+        (options.flipped, lambda given: with_flipped_normals(given, options.flipped, flips)),
     ]
     for asked, step in steps:
         sample = step(sample) if asked else sample
@@ -114,10 +115,23 @@ def with_normal_noise(sample: Sample, std: float, rng: np.random.Generator) -> S
 
     These are the estimated normals, or a copy of the true ones where there are none; the truth itself stays.
     """
-    given = sample.normals if sample.estimated_normals is None else sample.estimated_normals
+    given = _given_normals(sample)
     noisy = given + std * rng.standard_normal(given.shape)
     noisy /= np.linalg.norm(noisy, axis=1, keepdims=True)
     return replace(sample, estimated_normals=noisy.astype(np.float32))
+
+
+def with_flipped_normals(sample: Sample, share: float, rng: np.random.Generator) -> Sample:
+    """Return the sample with a share of the normals that a method is given turned round; the truth itself stays."""
+    given = _given_normals(sample)
+    turned = rng.choice(len(given), round(share * len(given)), replace=False)
+    flipped = given.copy()
+    flipped[turned] *= -1
+    return replace(sample, estimated_normals=flipped)
+
+
+def _given_normals(sample: Sample) -> NDArray[np.float32]:
+    return sample.normals if sample.estimated_normals is None else sample.estimated_normals
 
 
 def _along_longest_axis(points: NDArray[np.float32]) -> NDArray[np.float64]:

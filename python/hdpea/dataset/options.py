@@ -53,6 +53,7 @@ class DegradationOptions(Checked):
     )
     outliers: float = option(0.0, "share of the points that are moved to anywhere", minimum=0, maximum=1)
     normal_noise: float = option(0.0, "std of Gaussian noise on the normals (paper: 0.001, 0.002)", minimum=0)
+    flipped: float = option(0.0, "share of the normals that are turned round", minimum=0, maximum=1)
     seed: int = option(0, "seed of everything random; the same seed gives the same points", minimum=0)
 
 

@@ -3,8 +3,10 @@
 
 from __future__ import annotations
 
+import numpy as np
 import pymeshlab
 
+from hdpea import _core
 from hdpea.benchmark.methods import Cloud
 from hdpea.benchmark.methods.meshlab import current_mesh, with_points
 from hdpea.benchmark.methods.options import BallPivotingOptions
@@ -15,5 +17,19 @@ from hdpea.reading.triangle_mesh import TriangleMesh
 def reconstruct(cloud: Cloud, vertices: int, options: BallPivotingOptions) -> TriangleMesh:
     """Reconstruct, then reduce."""
     document = with_points(cloud)
-    document.generate_surface_reconstruction_ball_pivoting(ballradius=pymeshlab.PercentageValue(options.radius))
+    for radius in _radii(cloud, options.radius):
+        document.generate_surface_reconstruction_ball_pivoting(ballradius=pymeshlab.PercentageValue(radius))
     return reduced(current_mesh(document), vertices, options.reduce)
+
+
+def _radii(cloud: Cloud, radius: float) -> tuple[float, ...]:
+    """Return the radii, in percent of the diagonal, of the balls that pivot one after the other.
+
+    MeshLab's own guess leaves a third of the surface open on points that are random.
+    """
+    if radius:
+        return (radius,)
+    sixth = _core.nearest_neighbors(cloud.points, 6)[:, 5]
+    guessed = np.linalg.norm(cloud.points[sixth] - cloud.points, axis=1).mean()
+    share = 100 * float(guessed / np.linalg.norm(np.ptp(cloud.points, axis=0)))
+    return (share, 2 * share)

@@ -39,7 +39,11 @@ class PoissonOptions(ReducedOptions):
 class BallPivotingOptions(ReducedOptions):
     """The ball-pivoting algorithm (Bernardini et al., 1999), by MeshLab."""
 
-    radius: float = option(0.0, "of the ball, in percent of the diagonal; 0: guessed from the density", minimum=0)
+    radius: float = option(
+        0.0,
+        "of the ball, in percent of the diagonal; 0: the mean distance to the sixth neighbour, and then twice that",
+        minimum=0,
+    )
 
 
 @dataclass(frozen=True)

@@ -1,0 +1,123 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Moving least squares: less noise, the same shape."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import clouds
+import numpy as np
+import pytest
+
+from hdpea.denoising import denoised
+from hdpea.errors import Interrupted, UsageError
+from hdpea.frame import UnitFrame
+from hdpea.options import DenoisingOptions, MeshingOptions, Options
+from hdpea.reconstruction import reconstruct
+from hdpea.surface import Surface
+
+MLS = DenoisingOptions(denoise="mls")
+POINTS = 3000
+
+
+def surface_of(cloud: clouds.Cloud) -> Surface:
+    frame = UnitFrame.around(cloud[0])
+    return Surface.of(frame, frame.to_unit(cloud[0]), cloud[1])
+
+
+def after(cloud: clouds.Cloud) -> clouds.Cloud:
+    """Return the points in the world, and the normals, after denoising."""
+    made = denoised(surface_of(cloud), MLS)
+    return made.frame.to_world(made.points_in_unit), made.normals
+
+
+def noisy(cloud: clouds.Cloud, std: float) -> clouds.Cloud:
+    """Return the points with noise, and the normals with as much of it as spacings and noise give them."""
+    random = np.random.default_rng(7)
+    tilted = cloud[1] + 5 * std * random.normal(size=cloud[1].shape)
+    tilted /= np.linalg.norm(tilted, axis=1, keepdims=True)
+    return cloud[0] + std * random.normal(size=cloud[0].shape), tilted
+
+
+def rms(values: clouds.Array) -> float:
+    return float(np.sqrt((values**2).mean()))
+
+
+def test_nothing_is_done_unless_asked() -> None:
+    surface = surface_of(clouds.sphere(100))
+    assert denoised(surface) is surface
+
+
+def test_a_plane_stays_where_it_is() -> None:
+    plane = clouds.plane(POINTS, height=3)
+    points, normals = after(plane)
+    np.testing.assert_allclose(points, plane[0], atol=1e-9)
+    np.testing.assert_allclose(normals, plane[1], atol=1e-9)
+
+
+@pytest.mark.parametrize("shape", [clouds.sphere, clouds.cylinder, clouds.torus])
+def test_clean_points_hardly_move(shape: Callable[[int], clouds.Cloud]) -> None:
+    cloud = shape(POINTS)
+    points, _ = after(cloud)
+    assert np.linalg.norm(points - cloud[0], axis=1).max() < 0.02  # of a radius of 0.4 and more
+
+
+def test_a_noisy_sphere_gets_nearer_its_sphere_and_does_not_shrink() -> None:
+    sphere = clouds.sphere(POINTS)
+    given = noisy(sphere, 0.02)
+    points, normals = after(given)
+    assert rms(np.linalg.norm(points, axis=1) - 1) < 0.4 * rms(np.linalg.norm(given[0], axis=1) - 1)
+    assert np.linalg.norm(points, axis=1).mean() == pytest.approx(1, abs=0.005)
+    assert np.einsum("nc,nc->n", normals, sphere[1]).mean() > np.einsum("nc,nc->n", given[1], sphere[1]).mean()
+    np.testing.assert_allclose(np.linalg.norm(normals, axis=1), 1)
+
+
+def test_the_edges_of_a_box_stay_sharp() -> None:
+    box = clouds.box(POINTS)
+    points, normals = after(box)
+    moved = np.linalg.norm(points - box[0], axis=1)
+    assert moved.max() < 0.005  # a quarter of the spacing
+    assert np.einsum("nc,nc->n", normals, box[1]).min() > 0.98
+
+
+def test_the_two_sides_of_a_thin_wall_do_not_collapse() -> None:
+    sheets = clouds.two_sheets(POINTS, spacings_apart=3, facing=-1)
+    points, _ = after(sheets)
+    assert np.linalg.norm(points - sheets[0], axis=1).max() < 1e-6  # of a wall of 0.08
+
+
+def test_the_order_of_the_points_does_not_matter() -> None:
+    cloud = noisy(clouds.torus(POINTS), 0.01)
+    order = np.random.default_rng(1).permutation(POINTS)
+    points, normals = after(cloud)
+    shuffled, turned = after((cloud[0][order], cloud[1][order]))
+    np.testing.assert_allclose(shuffled, points[order], atol=1e-9)
+    np.testing.assert_allclose(turned, normals[order], atol=1e-7)
+
+
+def test_scale_and_place_do_not_matter() -> None:
+    cloud = noisy(clouds.torus(POINTS), 0.01)
+    points, normals = after(cloud)
+    larger, turned = after((1000 * cloud[0] + 1e5, cloud[1]))
+    np.testing.assert_allclose((larger - 1e5) / 1000, points, atol=1e-6)
+    np.testing.assert_allclose(turned, normals, atol=1e-4)
+
+
+def test_a_mesh_of_noisy_points_gets_better() -> None:
+    given = noisy(clouds.sphere(POINTS), 0.02)
+    meshing = MeshingOptions(vertices=800)
+    errors = [
+        rms(np.linalg.norm(reconstruct(*given, Options(denoising=each, meshing=meshing)).vertices, axis=1) - 1)
+        for each in (DenoisingOptions(), MLS)
+    ]
+    assert errors[1] < 0.6 * errors[0]
+
+
+def test_it_can_be_cancelled() -> None:
+    with pytest.raises(Interrupted):
+        denoised(surface_of(clouds.sphere(100)), MLS, lambda _phase, _fraction: False)
+
+
+def test_too_few_neighbors_are_refused() -> None:
+    with pytest.raises(UsageError, match="denoise_neighbors is at least 6"):
+        DenoisingOptions(denoise_neighbors=5)
