@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "hdpea_cpp/errors.hpp"
+#include "hdpea_cpp/neighbors.hpp"
 #include "hdpea_cpp/surface_distance.hpp"
 
 namespace hdpea {
@@ -99,6 +100,39 @@ NormalEquations assemble(const Points& vertices, const FacesRef& faces, const Po
   return system;
 }
 
+/// The size of the faces around each vertex, sqrt(2 area).
+Eigen::VectorXd sizes(const Points& vertices, const FacesRef& faces) {
+  const Points areas = area_vectors(vertices, faces);
+  Eigen::VectorXd sums = Eigen::VectorXd::Zero(vertices.rows()), counts = sums;
+  for (Index f = 0; f < faces.rows(); ++f) {
+    for (Index v : faces.row(f)) {
+      sums(v) += areas.row(f).norm();
+      counts(v) += 1;
+    }
+  }
+  return (sums.array() / counts.array().max(1)).sqrt();
+}
+
+Eigen::VectorXd distances(const PointsRef& points, const Points& vertices) {
+  const Neighbors nearest = nearest_neighbors(points, vertices, 1);
+  Eigen::VectorXd distances(vertices.rows());
+  for (Index v = 0; v < vertices.rows(); ++v) distances(v) = (points.row(nearest(v, 0)) - vertices.row(v)).norm();
+  return distances;
+}
+
+/// Halves the step of the vertices that leave the cloud: where few points hold one, least squares may send it far out
+/// along the planes of its faces. Farther than a gap between points, and than it was, is too far.
+void stay_near(const PointsRef& points, const Points& from, const Eigen::VectorXd& gap, Points& to) {
+  constexpr int halvings = 4;
+  const Eigen::VectorXd most = distances(points, from).cwiseMax(gap);
+  for (int round = 0; round < halvings; ++round) {
+    const Eigen::VectorXd found = distances(points, to);
+    for (Index v = 0; v < to.rows(); ++v) {
+      if (found(v) > most(v)) to.row(v) = (from.row(v) + to.row(v)) / 2;
+    }
+  }
+}
+
 /// Halves the step of the vertices of spoilt faces until there are none; after a few halvings they stay put.
 Points take_safe_step(const Points& from, const Points& to, const FacesRef& faces, const RefinementOptions& options) {
   constexpr int halvings = 5;
@@ -128,8 +162,10 @@ Points take_safe_step(const Points& from, const Points& to, const FacesRef& face
 Points refine_vertices(const PointsRef& vertices, const FacesRef& faces, const PointsRef& points,
                        const PointsRef& normals, const RefinementOptions& options, const Progress& progress) {
   require(points.rows() == normals.rows(), "points and normals must have one row per point");
-  require(options.rounds >= 0 && options.pull > 0, "rounds must be 0 or more and pull positive");
+  require(options.rounds >= 0 && options.pull > 0 && options.max_gap > 0,
+          "rounds must be 0 or more, pull and max_gap positive");
   Points refined = vertices;
+  const Eigen::VectorXd gap = options.max_gap * sizes(refined, faces);
   for (Index round = 0; round < options.rounds; ++round) {
     report(progress, static_cast<double>(round) / static_cast<double>(options.rounds));
     const NormalEquations system = assemble(refined, faces, points, normals, options);
@@ -138,7 +174,9 @@ Points refine_vertices(const PointsRef& vertices, const FacesRef& faces, const P
     if (factorization.info() != Eigen::Success || !solution.allFinite()) {
       throw CannotReconstruct("the refinement's sparse system has no solution");
     }
-    refined = take_safe_step(refined, Eigen::Map<const Points>(solution.data(), refined.rows(), 3), faces, options);
+    Points fitted = Eigen::Map<const Points>(solution.data(), refined.rows(), 3);
+    stay_near(points, refined, gap, fitted);
+    refined = take_safe_step(refined, fitted, faces, options);
   }
   report(progress, 1);
   return refined;

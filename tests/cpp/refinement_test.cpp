@@ -64,6 +64,20 @@ TEST(Refinement, DoesNotDependOnTheOrderOfTheFaces) {
   EXPECT_GT(refined(0, 2), 0.03);
 }
 
+TEST(Refinement, NoVertexLeavesTheCloud) {
+  // Three noisy points in the middle of a triangle tell a slope of 45 degrees, which would lift a corner by 0.5.
+  const auto triangle = shapes::make({{-0.5, 0, 0}, {0.5, 0, 0}, {0, 0.9, 0}}, {{0, 1, 2}});
+  Points points(3, 3);
+  points << -0.02, 0.3, -0.02, 0.02, 0.3, 0.02, 0, 0.34, 0;
+  const Points normals = Eigen::RowVector3d::UnitZ().replicate(3, 1);
+  const Points refined = refine_vertices(triangle.vertices, triangle.faces, points, normals, {});
+  EXPECT_LT(refined.col(2).cwiseAbs().maxCoeff(), 0.1);
+  RefinementOptions loose;
+  loose.max_gap = 100;
+  const Points lifted = refine_vertices(triangle.vertices, triangle.faces, points, normals, loose);
+  EXPECT_GT(lifted.col(2).cwiseAbs().maxCoeff(), 0.2);
+}
+
 TEST(Refinement, NoRoundsChangeNothing) {
   const auto mesh = shapes::tetrahedron();
   const auto sphere = clouds::sphere(100);
