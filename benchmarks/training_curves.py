@@ -1,0 +1,39 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""How a training went: means of its loss and of what it is made of, from its metrics.jsonl.
+
+    python benchmarks/training_curves.py FOLDER [--every 500]
+
+FOLDER is what `hdpea train` wrote. Prints Markdown.
+"""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import click
+import numpy as np
+
+from hdpea.training.journal import METRICS
+
+COLUMNS = {"loss": 3, "distance": 3, "metric": 3, "flatness": 3, "seconds_per_step": 2}
+
+
+@click.command()
+@click.argument("folder", type=click.Path(exists=True, path_type=Path))
+@click.option("--every", default=500, show_default=True, help="steps in a row")
+def main(*, folder: Path, every: int) -> None:
+    """Print the means of every so many steps."""
+    lines = [json.loads(line) for line in (folder / METRICS).read_text().splitlines()]
+    rows: dict[int, list[list[float]]] = {}
+    for line in lines:
+        if "loss" in line:
+            rows.setdefault((line["step"] - 1) // every, []).append([line[column] for column in COLUMNS])
+    click.echo("| steps to | " + " | ".join(COLUMNS) + " |\n|" + "---|" * (1 + len(COLUMNS)))
+    for number, values in rows.items():
+        cells = (f"{value:.{digits}f}" for value, digits in zip(np.mean(values, axis=0), COLUMNS.values(), strict=True))
+        click.echo(f"| {(number + 1) * every:,} | " + " | ".join(cells) + " |")
+
+
+if __name__ == "__main__":
+    main()
