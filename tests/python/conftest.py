@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 from __future__ import annotations
 
+import signal
 from collections.abc import Callable
 from pathlib import Path
 
@@ -12,6 +13,9 @@ from hdpea.cli import run
 # A busy machine must not fail a test; random examples are for people, repeatable ones for gates.
 settings.register_profile("hdpea", deadline=None, derandomize=True)
 settings.load_profile("hdpea")
+
+# Whatever a shell runs in the background ignores Ctrl-C, and so do its children: those that tests start must not.
+signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
 @pytest.fixture
