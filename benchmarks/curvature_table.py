@@ -6,8 +6,7 @@
 
 Points are drawn evenly by area of analytic surfaces, and of the meshes of a folder, whose curvature the ground truth of
 `hdpea.dataset` fits to the normals of the mesh itself. Methods get the points alone, with Gaussian noise in shares of
-the diagonal of the bounding box. Every embedding that hdpea has is a row (the learned one if there are weights), and so
-are jets.
+the diagonal of the bounding box. Every embedding that hdpea has is a row, and so are jets.
 
 A mesh has facets, often larger than the length that curvature is measured at; there its curvature depends on where
 exactly one measures. The row `mesh` shows how much: it fits, at the same length, the mesh's own normals at the points
@@ -218,7 +217,7 @@ def listed(text: str) -> list[str]:
 @click.option("--meshes", help="only these of the folder, by name: bull,trex; empty: none")
 @click.option("--noise", default="0,0.1%,0.3%", show_default=True, help="standard deviations, of the diagonal")
 @click.option("--methods", default=",".join([*EMBEDDERS, JET]), show_default=True)
-@click.option("--weights", help="of the learned embedding, which is left out without them")
+@click.option("--weights", help="of the learned embedding, instead of those that come along")
 def main(
     *,
     folder: Path,
@@ -231,7 +230,7 @@ def main(
 ) -> None:
     """Print the errors on analytic surfaces, and on the meshes of FOLDER: median / 90 % of the points."""
     noises = [float(each.rstrip("%")) / (100 if each.endswith("%") else 1) for each in listed(noise)]
-    wanted = [each for each in listed(methods) if each != LEARNED or weights]
+    wanted = listed(methods)
     click.echo(f"| {' | '.join(HEADER)} |")
     click.echo("|---" * len(HEADER) + "|")
     for name in listed(surfaces):
