@@ -14,6 +14,7 @@ from pathlib import Path
 
 import click
 import numpy as np
+from means_table import print_means
 from numpy.typing import NDArray
 from val_table import Sampled, load_metrics, meshes_of
 
@@ -46,7 +47,7 @@ def from_normals(surface: Surface, spacing: float, rounds: int) -> NDArray[np.fl
 def main(*, folder: Path, baselines: Path, meshes: str | None, vertices: int, weights: Path) -> None:
     """Reconstruct the meshes of FOLDER after so many rounds from each start."""
     metrics, network = load_metrics(baselines), read_weights(weights)
-    scores: dict[tuple[str, int], list[list[float]]] = {}
+    scores: dict[tuple[str, ...], list[list[float]]] = {}
     for path in meshes_of(folder, meshes):
         sampled = Sampled.of(path, metrics)
         frame = UnitFrame.around(sampled.points)
@@ -64,12 +65,9 @@ def main(*, folder: Path, baselines: Path, meshes: str | None, vertices: int, we
                 mesh = mesh_of_embedding(surface, psi, vertices)
                 found = metrics.evaluate(frame.to_world(mesh.vertices_in_unit), mesh.faces, sampled.truth, sampled.seed)
                 found |= {"T3": mesh.statistics["t3_kept"] / len(mesh.faces), "seconds": seconds}
-                scores.setdefault((start, rounds), []).append([found[column] for column in COLUMNS])
+                scores.setdefault((start, str(rounds)), []).append([found[column] for column in COLUMNS])
         click.echo(path.stem, err=True)
-    click.echo("| start | rounds | " + " | ".join(COLUMNS) + " |\n|" + "---|" * (2 + len(COLUMNS)))
-    for (start, rounds), rows in scores.items():
-        cells = (f"{value:.{digits}f}" for value, digits in zip(np.mean(rows, axis=0), COLUMNS.values(), strict=True))
-        click.echo(f"| {start} | {rounds} | " + " | ".join(cells) + " |")
+    print_means(["start", "rounds"], COLUMNS, scores)
 
 
 if __name__ == "__main__":

@@ -15,6 +15,7 @@ from pathlib import Path
 
 import click
 import numpy as np
+from means_table import print_means
 from numpy.typing import NDArray
 from val_table import Sampled, load_metrics, meshes_of
 
@@ -65,7 +66,7 @@ def main(
 ) -> None:
     """Reconstruct the meshes of FOLDER with each kind of tangent plane."""
     metrics = load_metrics(baselines)
-    scores: dict[str, list[list[float]]] = {name: [] for name in PLANES}
+    scores: dict[tuple[str, ...], list[list[float]]] = {}
     for path in meshes_of(folder, meshes):
         sampled = Sampled.of(path, metrics)
         frame = UnitFrame.around(sampled.points)
@@ -79,14 +80,11 @@ def main(
             in_world = frame.to_world(mesh.vertices_in_unit)
             found = metrics.evaluate(in_world, mesh.faces, sampled.truth, sampled.seed)
             found["T3"] = mesh.statistics["t3_kept"] / len(mesh.faces)
-            scores[name].append([found[column] for column in COLUMNS])
+            scores.setdefault((name,), []).append([found[column] for column in COLUMNS])
             if picture:
                 draw_mesh(picture / f"{path.stem}_{number}.png", in_world, mesh.faces)
         click.echo(path.stem, err=True)
-    click.echo("| tangent plane | " + " | ".join(COLUMNS) + " |\n|" + "---|" * (1 + len(COLUMNS)))
-    for name, rows in scores.items():
-        cells = (f"{value:.{digits}f}" for value, digits in zip(np.mean(rows, axis=0), COLUMNS.values(), strict=True))
-        click.echo(f"| {name} | " + " | ".join(cells) + " |")
+    print_means(["tangent plane"], COLUMNS, scores)
 
 
 if __name__ == "__main__":

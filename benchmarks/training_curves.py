@@ -12,7 +12,7 @@ import json
 from pathlib import Path
 
 import click
-import numpy as np
+from means_table import print_means
 
 from hdpea.training.journal import METRICS
 
@@ -25,14 +25,12 @@ COLUMNS = {"loss": 3, "distance": 3, "metric": 3, "flatness": 3, "seconds_per_st
 def main(*, folder: Path, every: int) -> None:
     """Print the means of every so many steps."""
     lines = [json.loads(line) for line in (folder / METRICS).read_text().splitlines()]
-    rows: dict[int, list[list[float]]] = {}
+    rows: dict[tuple[str, ...], list[list[float]]] = {}
     for line in lines:
         if "loss" in line:
-            rows.setdefault((line["step"] - 1) // every, []).append([line[column] for column in COLUMNS])
-    click.echo("| steps to | " + " | ".join(COLUMNS) + " |\n|" + "---|" * (1 + len(COLUMNS)))
-    for number, values in rows.items():
-        cells = (f"{value:.{digits}f}" for value, digits in zip(np.mean(values, axis=0), COLUMNS.values(), strict=True))
-        click.echo(f"| {(number + 1) * every:,} | " + " | ".join(cells) + " |")
+            until = -(-line["step"] // every) * every
+            rows.setdefault((f"{until:,}",), []).append([line[column] for column in COLUMNS])
+    print_means(["steps to"], COLUMNS, rows)
 
 
 if __name__ == "__main__":
