@@ -190,11 +190,13 @@ def test_normals_are_the_true_ones_unless_they_are_to_be_estimated() -> None:
         ("co3ne", {"reduce": "cvt"}, "geogram"),
     ],
 )
-def test_methods_make_meshes_of_the_wanted_size(method: str, values: dict[str, object], library: str) -> None:
+def test_methods_make_meshes_of_the_wanted_size(
+    method: str, values: dict[str, object], library: str, tmp_path: Path
+) -> None:
     pytest.importorskip(library)
     pytest.importorskip("pymeshlab" if method in ("poisson", "ball_pivoting") else library)
     method_options(method, values)
-    made = work(Task(cloud_of(), method, values, 200))
+    made = work(Task(cloud_of(), method, values, 200, tmp_path))
     vertices, faces = made.mesh
     # mmgs takes a metric and not a number of vertices, and answers in steps.
     assert len(vertices) == pytest.approx(200, rel=0.05 if library == "mmgpy" else 0.02)

@@ -30,7 +30,7 @@ from hdpea.version import version
 from hdpea.writing import write_mesh
 
 Chosen = TypeVar("Chosen")
-RUNS, MESHES, CLOUDS = "runs", "meshes", "clouds"
+RUNS, MESHES, CLOUDS, SURFACES = "runs", "meshes", "clouds", "surfaces"
 
 
 @dataclass
@@ -60,7 +60,8 @@ def run_suite(
     """Run a suite on the meshes that `meshes` names (see ``find_meshes``); return every record, also of failures.
 
     What `folder` holds of an earlier run is kept if nothing it depends on has changed; failures are tried again. It
-    gets ``clouds/`` (the points that every method was given), ``meshes/`` and ``runs/``.
+    gets ``clouds/`` (the points that every method was given), ``surfaces/`` (what is then reduced), ``meshes/`` and
+    ``runs/``.
 
     Parameters
     ----------
@@ -105,7 +106,7 @@ def _runs_of(suite: Suite, model: Model, folder: Path) -> Iterator[tuple[Record,
                     yield earlier, "is there already"
                     continue
                 cloud = cloud or _cloud(suite, model, given, folder)
-                record = _run(planned, model, cloud, method, suite.options, mesh)
+                record = _run(planned, model, cloud, method, suite.options, folder)
                 write_record(path, record)
                 yield record, _news(record)
 
@@ -138,15 +139,18 @@ def _cloud(suite: Suite, model: Model, given: SuiteInput, folder: Path) -> Cloud
 
 
 def _run(
-    planned: Record, model: Model, cloud: Cloud | HdpeaError, method: SuiteMethod, options: SuiteOptions, path: Path
+    planned: Record, model: Model, cloud: Cloud | HdpeaError, method: SuiteMethod, options: SuiteOptions, folder: Path
 ) -> Record:
     """Run, write the mesh, measure it."""
     if isinstance(cloud, HdpeaError):
         return replace(planned, failed=cloud.message)
-    outcome = run(Task(cloud, method.method, method.values, planned.vertices), options.time_limit)
+    surfaces = folder / SURFACES / planned.stem.parent
+    task = Task(cloud, method.method, method.values, planned.vertices, surfaces)
+    outcome = run(task, options.time_limit)
     if outcome.result is None:
         return replace(planned, failed=outcome.failed, seconds=outcome.seconds)
     made = outcome.result
+    path = mesh_path(folder, planned)
     path.parent.mkdir(parents=True, exist_ok=True)
     write_mesh(path, *made.mesh)
     done = replace(planned, seconds=made.seconds, cpu_seconds=made.cpu_seconds, peak_bytes=made.peak_bytes)

@@ -3,38 +3,31 @@
 
 from __future__ import annotations
 
-import time
 from collections.abc import Mapping
 from dataclasses import dataclass
 from importlib import import_module
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 
+from hdpea.benchmark.making import Made, made_by
 from hdpea.benchmark.methods import METHODS, Cloud, libraries, method_options
+from hdpea.benchmark.surfaces import surface_of
 from hdpea.dataset.isolation import Outcome, run_isolated
 from hdpea.errors import CannotReconstruct
-from hdpea.reading.triangle_mesh import TriangleMesh, drop_unused
+from hdpea.reading.triangle_mesh import drop_unused
 
 
 @dataclass(frozen=True)
 class Task:
-    """What the process needs to know."""
+    """What the process needs to know; `surfaces` is the folder that keeps what methods share of their work."""
 
     cloud: Cloud
     method: str
     values: Mapping[str, Any]
     vertices: int
-
-
-@dataclass(frozen=True)
-class Made:
-    """The mesh that came out, and what it took; its libraries were loaded before."""
-
-    mesh: TriangleMesh
-    seconds: float
-    cpu_seconds: float
-    peak_bytes: int
+    surfaces: Path
 
 
 def run(task: Task, time_limit: float) -> Outcome[Made]:
@@ -43,23 +36,25 @@ def run(task: Task, time_limit: float) -> Outcome[Made]:
 
 
 def work(task: Task) -> Made:
-    """Run a method in this process.
+    """Run a method in this process; what it takes is counted from when its libraries are loaded.
 
     Raises
     ------
     CannotReconstruct
         If it makes no triangle.
     """
-    from hdpea.measuring import peak_resident_bytes
-
     options = method_options(task.method, task.values)
-    reconstruct = METHODS[task.method].load()
+    method = METHODS[task.method]
     for library in libraries(task.method, options):
         import_module(library)
-    started, worked = time.perf_counter(), time.process_time()
-    vertices, faces = reconstruct(task.cloud, task.vertices, options)
-    seconds, cpu_seconds = time.perf_counter() - started, time.process_time() - worked
-    peak = peak_resident_bytes()
+    if method.reduces:
+        surface = surface_of(task.cloud, task.method, options, task.surfaces)
+        reduced = import_module("hdpea.benchmark.methods.reduction").reduced
+        made = surface.then(made_by(lambda: reduced(surface.mesh, task.vertices, options.reduce)))
+    else:
+        reconstruct = method.load("reconstruct")
+        made = made_by(lambda: reconstruct(task.cloud, task.vertices, options))
+    vertices, faces = made.mesh
     if len(faces) == 0 or not np.isfinite(vertices).all():
         raise CannotReconstruct("The method made no triangles.", "See its options.")
-    return Made(drop_unused(vertices, faces), seconds, cpu_seconds, peak)
+    return Made(drop_unused(vertices, faces), made.seconds, made.cpu_seconds, made.peak_bytes)

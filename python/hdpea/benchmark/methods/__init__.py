@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Ways from points to a mesh of a given size: ours, and those of others.
 
-A method is a function ``(cloud, vertices, options) -> (vertices, faces)`` in a module of its own, listed in
-``METHODS`` by name; its module is imported only in the process that runs it. Rivals need the extra ``benchmark``.
+A method is a function ``reconstruct(cloud, vertices, options) -> (vertices, faces)`` in a module of its own, or
+``surface(cloud, options) -> (vertices, faces)`` if what it makes is then reduced. It is listed in ``METHODS`` by name;
+its module is imported only in the process that runs it. Rivals need the extra ``benchmark``.
 """
 
 from __future__ import annotations
@@ -12,12 +13,18 @@ from dataclasses import dataclass, fields
 from difflib import get_close_matches
 from importlib import import_module
 from importlib.util import find_spec
-from typing import Any, Protocol
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from hdpea.benchmark.methods.options import BallPivotingOptions, Co3neOptions, FolderOptions, PoissonOptions
+from hdpea.benchmark.methods.options import (
+    BallPivotingOptions,
+    Co3neOptions,
+    FolderOptions,
+    PoissonOptions,
+    ReducedOptions,
+)
 from hdpea.errors import UsageError
 from hdpea.lengths import Length
 from hdpea.options import Options
@@ -39,13 +46,6 @@ class Cloud:
     given: str
 
 
-class Reconstructs(Protocol):
-    """What the module of a method holds as ``reconstruct``."""
-
-    def __call__(self, cloud: Cloud, vertices: int, options: Any) -> TriangleMesh:
-        """Return the vertices (v, 3) and faces (f, 3) of a mesh of about so many vertices."""
-
-
 @dataclass(frozen=True)
 class Method:
     """A method: its module beside this one, the class of its options, and the libraries it cannot do without."""
@@ -54,9 +54,14 @@ class Method:
     options: type[Any]
     libraries: tuple[str, ...] = ()
 
-    def load(self) -> Reconstructs:
-        """Import the method."""
-        function: Reconstructs = import_module(f"hdpea.benchmark.methods.{self.module}").reconstruct
+    @property
+    def reduces(self) -> bool:
+        """Whether it makes a ``surface`` of many vertices, which is then reduced."""
+        return issubclass(self.options, ReducedOptions)
+
+    def load(self, name: str) -> Callable[..., TriangleMesh]:
+        """Import the method's function of this name."""
+        function: Callable[..., TriangleMesh] = getattr(import_module(f"{__name__}.{self.module}"), name)
         return function
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Ball pivoting over all points, then a reduction to the wanted size."""
+"""Ball pivoting over all points."""
 
 from __future__ import annotations
 
@@ -10,16 +10,15 @@ from hdpea import _core
 from hdpea.benchmark.methods import Cloud
 from hdpea.benchmark.methods.meshlab import current_mesh, with_points
 from hdpea.benchmark.methods.options import BallPivotingOptions
-from hdpea.benchmark.methods.reduction import reduced
 from hdpea.reading.triangle_mesh import TriangleMesh
 
 
-def reconstruct(cloud: Cloud, vertices: int, options: BallPivotingOptions) -> TriangleMesh:
-    """Reconstruct, then reduce."""
+def surface(cloud: Cloud, options: BallPivotingOptions) -> TriangleMesh:
+    """Return the surface whose vertices are the points."""
     document = with_points(cloud)
     for radius in _radii(cloud, options.radius):
         document.generate_surface_reconstruction_ball_pivoting(ballradius=pymeshlab.PercentageValue(radius))
-    return reduced(current_mesh(document), vertices, options.reduce)
+    return current_mesh(document)
 
 
 def _radii(cloud: Cloud, radius: float) -> tuple[float, ...]:

@@ -1,0 +1,50 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Surfaces of many vertices, made once for all reductions and sizes; what they took counts for each of these."""
+
+from __future__ import annotations
+
+from dataclasses import asdict
+from hashlib import sha256
+from pathlib import Path
+from typing import Any
+from zipfile import BadZipFile
+
+import numpy as np
+
+from hdpea.benchmark.making import Made, made_by
+from hdpea.benchmark.methods import METHODS, Cloud
+from hdpea.benchmark.record import key_of
+from hdpea.outputs import replacing
+from hdpea.version import version
+
+
+def surface_of(cloud: Cloud, method: str, options: Any, folder: Path) -> Made:
+    """Return what a method makes of a cloud before anything is reduced: from `folder`, or else made and put there."""
+    settings = {name: value for name, value in asdict(options).items() if name != "reduce"}
+    given = sha256(cloud.points.tobytes() + cloud.normals.tobytes()).hexdigest()
+    key = key_of(version(), given, method, settings)
+    path = folder / f"{method}-{key[:16]}.npz"
+    kept = _read(path)
+    if kept is not None:
+        return kept
+    surface = METHODS[method].load("surface")
+    made = made_by(lambda: surface(cloud, options))
+    folder.mkdir(parents=True, exist_ok=True)
+    with replacing(path) as partial, partial.open("wb") as file:
+        np.savez(
+            file,
+            vertices=made.mesh[0],
+            faces=made.mesh[1],
+            took=np.array([made.seconds, made.cpu_seconds, made.peak_bytes]),
+        )
+    return made
+
+
+def _read(path: Path) -> Made | None:
+    """Read a surface; None if it is not there whole."""
+    try:
+        with path.open("rb") as file, np.load(file) as arrays:
+            seconds, cpu_seconds, peak_bytes = arrays["took"].tolist()
+            return Made((arrays["vertices"], arrays["faces"]), seconds, cpu_seconds, int(peak_bytes))
+    except (OSError, ValueError, KeyError, BadZipFile):
+        return None
