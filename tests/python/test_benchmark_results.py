@@ -20,6 +20,7 @@ from hdpea.benchmark import provenance as provenance_module
 from hdpea.benchmark.curves import draw_curves
 from hdpea.benchmark.drawing import ERROR_COLORS, RED_FROM, error_colors, subdivided
 from hdpea.benchmark.means import FLOOR, best_of, means_of
+from hdpea.benchmark.nearest import nearest_sentence
 from hdpea.benchmark.provenance import commit
 from hdpea.benchmark.record import Record, key_of, read_record, write_record
 from hdpea.benchmark.results import curves_of, results_in_markdown
@@ -83,6 +84,15 @@ def test_the_best_are_bold_and_ties_are_not() -> None:
     assert table[2].startswith("| ours | 2/2 | 99 | **1.000** | 1.000 |")
     assert table[3].startswith("| theirs | 1/2 | 99 | 3.000 | 1.000 |")
     assert len({line.count("|") for line in table}) == 1
+
+
+def test_who_is_nearest_on_which_model_is_told() -> None:
+    records = [*RECORDS[:3], record("b", "theirs", 8e-5)]
+    assert nearest_sentence(records, SUITE, "clean", 100) == "Smallest exact CD: ours on a; theirs on b."
+    assert nearest_sentence(RECORDS, SUITE, "clean", 100) == "Smallest exact CD: ours on a, b."  # theirs failed on b
+    assert nearest_sentence(RECORDS, SUITE, "clean", 1000) == ""  # nobody to compare with
+    many = [record(str(i), name, error) for i in range(9) for name, error in (("ours", 2e-5), ("theirs", 1e-5))]
+    assert nearest_sentence(many, SUITE, "clean", 100) == "Smallest exact CD: theirs on 9 models."
 
 
 def test_the_page_of_results_says_all_of_it() -> None:
