@@ -30,8 +30,7 @@ from hdpea.dataset.surface_file import read_surface
 from hdpea.frame import UnitFrame
 from hdpea.normals import oriented_surface
 from hdpea.options import NormalOptions
-from hdpea.outputs import replacing
-from hdpea.picture import DOTS, FRONT, load_pyvista, look_at, point_size
+from hdpea.picture import DOTS, FRONT, drawn_to, look_at, point_size
 from hdpea.position import Position
 from hdpea.reading import read_points
 from hdpea.reading.cloud import cleaned
@@ -140,24 +139,20 @@ def print_clouds(paths: list[Path], pictures: Path | None) -> None:
 
 def draw_sides(path: Path, points: Array, normals: dict[str, Array]) -> None:
     """Draw a panel for each way: points that face the eye in one colour, those that turn their back in another."""
-    pyvista = load_pyvista()
     view_from_world = choose_view_of_points(points, normals["auto"])
     in_view = UnitFrame.around(points).to_unit(points) @ view_from_world.T
-    plotter = pyvista.Plotter(off_screen=True, shape=(1, len(normals)), window_size=[PANEL[0] * len(normals), PANEL[1]])
-    plotter.background_color = pyvista.Color("white")
-    for column, (way, of_way) in enumerate(normals.items()):
-        plotter.subplot(0, column)
-        facing = (of_way @ view_from_world.T)[:, 2] > 0
-        for side, color in ((facing, FRONT), (~facing, DOTS)):
-            if side.any():
-                # Spheres, which hide what is behind them.
-                size = point_size(len(points) // 2, PANEL)
-                plotter.add_points(in_view[side], color=color, point_size=size, render_points_as_spheres=True)
-        plotter.add_text(way, font_size=12, color="black")
-        look_at(plotter, in_view, PANEL)
-    with replacing(path) as partial:
-        plotter.screenshot(partial)
-    plotter.close()
+    # Spheres, which hide what is behind them.
+    size = point_size(len(points) // 2, PANEL)
+    window = [PANEL[0] * len(normals), PANEL[1]]
+    with drawn_to(path, shape=(1, len(normals)), window_size=window) as (_, plotter):
+        for column, (way, of_way) in enumerate(normals.items()):
+            plotter.subplot(0, column)
+            facing = (of_way @ view_from_world.T)[:, 2] > 0
+            for side, color in ((facing, FRONT), (~facing, DOTS)):
+                if side.any():
+                    plotter.add_points(in_view[side], color=color, point_size=size, render_points_as_spheres=True)
+            plotter.add_text(way, font_size=12, color="black")
+            look_at(plotter, in_view, PANEL)
 
 
 @click.command()

@@ -5,6 +5,8 @@ from __future__ import annotations
 
 import os
 import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
 from ctypes.util import find_library
 from dataclasses import dataclass
 from importlib import import_module
@@ -52,6 +54,34 @@ def load_pyvista() -> ModuleType:
         # Must be said before VTK is imported; it would try a display first.
         os.environ.setdefault("VTK_DEFAULT_OPENGL_WINDOW", "vtkOSOpenGLRenderWindow")
     return import_module("pyvista")
+
+
+@contextmanager
+def drawn_to(path: Path, **settings: Any) -> Iterator[tuple[ModuleType, Any]]:
+    """Give pyvista and a white plotter; what it shows in the end is written to a PNG file, whole or not at all.
+
+    Raises
+    ------
+    UsageError
+        If nothing can be drawn on this machine, or the file cannot be written.
+    """
+    check_output(path, PICTURE_FORMATS)
+    check_drawing()
+    pyvista = load_pyvista()
+    plotter = pyvista.Plotter(off_screen=True, **settings)
+    try:
+        plotter.background_color = pyvista.Color("white")
+        yield pyvista, plotter
+        with replacing(path) as partial:
+            plotter.screenshot(partial)
+    finally:
+        plotter.close()
+
+
+def light_up(pyvista: ModuleType, plotter: Any) -> None:
+    """Let light fall from above on the left, and smooth the edges of the picture."""
+    plotter.add_light(pyvista.Light(position=(-0.7, 1.0, 2.0), light_type="scene light"))
+    plotter.enable_anti_aliasing("ssaa")
 
 
 def point_size(points: int, window: tuple[int, int]) -> float:
@@ -139,13 +169,7 @@ def draw_mesh(
     UsageError
         If nothing can be drawn on this machine, or the file cannot be written.
     """
-    check_output(path, PICTURE_FORMATS)
-    check_drawing()
-    pyvista = load_pyvista()
     camera = camera or Camera.before(vertices, faces)
-    surface = pyvista.PolyData.from_regular_faces(camera.to_view(vertices), faces.astype(int))
-    plotter = pyvista.Plotter(off_screen=True, window_size=list(size), lighting="none")
-    plotter.background_color = pyvista.Color("white")
     if colors is None:
         looks = {
             "color": FRONT,
@@ -156,12 +180,10 @@ def draw_mesh(
         }
     else:
         looks = {"scalars": colors, "rgb": True}
-    plotter.add_mesh(surface, ambient=0.3, diffuse=0.75, **looks)
-    if points is not None:
-        plotter.add_points(camera.to_view(points), color=DOTS, point_size=2)
-    _look(plotter, np.zeros(3), camera.size, size)
-    plotter.add_light(pyvista.Light(position=(-0.7, 1.0, 2.0), light_type="scene light"))
-    plotter.enable_anti_aliasing("ssaa")
-    with replacing(path) as partial:
-        plotter.screenshot(partial)
-    plotter.close()
+    with drawn_to(path, window_size=list(size), lighting="none") as (pyvista, plotter):
+        surface = pyvista.PolyData.from_regular_faces(camera.to_view(vertices), faces.astype(int))
+        plotter.add_mesh(surface, ambient=0.3, diffuse=0.75, **looks)
+        if points is not None:
+            plotter.add_points(camera.to_view(points), color=DOTS, point_size=2)
+        _look(plotter, np.zeros(3), camera.size, size)
+        light_up(pyvista, plotter)

@@ -11,8 +11,7 @@ from numpy.typing import NDArray
 
 from hdpea.curvature.glyphs import PLATE, glyphs_of
 from hdpea.curvature.tensors import CurvatureTensors
-from hdpea.outputs import check_output, replacing
-from hdpea.picture import PICTURE_FORMATS, check_drawing, load_pyvista, look_at
+from hdpea.picture import drawn_to, light_up, look_at
 from hdpea.viewpoint import choose_view_of_points
 
 Rows = NDArray[np.float64]
@@ -44,35 +43,26 @@ def draw_curvature(path: Path, tensors: CurvatureTensors, size: tuple[int, int] 
     UsageError
         If nothing can be drawn on this machine, or the file cannot be written.
     """
-    check_output(path, PICTURE_FORMATS)
-    check_drawing()
-    pyvista = load_pyvista()
     glyphs = glyphs_of(tensors, GLYPHS)
     view_from_unit = choose_view_of_points(glyphs.centres, glyphs.normals)
     # As on the page: the far side would show through the gaps between the disks.
     facing = (glyphs.normals @ view_from_unit.T)[:, 2] > 0
     centres, axes = glyphs.centres[facing], glyphs.axes[facing]
-    ball = pyvista.Sphere(radius=1, theta_resolution=SIDES, phi_resolution=SIDES // 2 + 1)
-    disk = pyvista.Disc(inner=0, outer=PLATE, r_res=1, c_res=SIDES).triangulate()
-
-    plotter = pyvista.Plotter(off_screen=True, window_size=list(size), lighting="none")
-    plotter.background_color = pyvista.Color("white")
-    vertices, faces = _copies(disk, centres, _plates(axes, glyphs.radius))
-    surface = pyvista.PolyData.from_regular_faces(vertices @ view_from_unit.T, faces)
-    plotter.add_mesh(surface, color=SURFACE, ambient=0.45, diffuse=0.55)
-    vertices, faces = _copies(ball, centres, axes)
-    ellipsoids = pyvista.PolyData.from_regular_faces(vertices @ view_from_unit.T, faces)
-    colors = np.repeat(glyphs.colors[facing], ball.n_points, axis=0)
-    plotter.add_mesh(ellipsoids, scalars=colors, rgb=True, smooth_shading=True, ambient=0.35, diffuse=0.75)
-    look_at(plotter, glyphs.centres @ view_from_unit.T, size)
-    middle, most = f"{glyphs.most**0.5:.2g}", f"{glyphs.most:.2g}"
-    legend = f" stretching ratio: blue 1, pale {middle}, red {most} and more; dark grey: any direction"
-    plotter.add_text(legend, position="lower_left", color="black", font_size=size[1] // 100)
-    plotter.add_light(pyvista.Light(position=(-0.7, 1.0, 2.0), light_type="scene light"))
-    plotter.enable_anti_aliasing("ssaa")
-    with replacing(path) as partial:
-        plotter.screenshot(partial)
-    plotter.close()
+    with drawn_to(path, window_size=list(size), lighting="none") as (pyvista, plotter):
+        ball = pyvista.Sphere(radius=1, theta_resolution=SIDES, phi_resolution=SIDES // 2 + 1)
+        disk = pyvista.Disc(inner=0, outer=PLATE, r_res=1, c_res=SIDES).triangulate()
+        vertices, faces = _copies(disk, centres, _plates(axes, glyphs.radius))
+        surface = pyvista.PolyData.from_regular_faces(vertices @ view_from_unit.T, faces)
+        plotter.add_mesh(surface, color=SURFACE, ambient=0.45, diffuse=0.55)
+        vertices, faces = _copies(ball, centres, axes)
+        ellipsoids = pyvista.PolyData.from_regular_faces(vertices @ view_from_unit.T, faces)
+        colors = np.repeat(glyphs.colors[facing], ball.n_points, axis=0)
+        plotter.add_mesh(ellipsoids, scalars=colors, rgb=True, smooth_shading=True, ambient=0.35, diffuse=0.75)
+        look_at(plotter, glyphs.centres @ view_from_unit.T, size)
+        middle, most = f"{glyphs.most**0.5:.2g}", f"{glyphs.most:.2g}"
+        legend = f" stretching ratio: blue 1, pale {middle}, red {most} and more; dark grey: any direction"
+        plotter.add_text(legend, position="lower_left", color="black", font_size=size[1] // 100)
+        light_up(pyvista, plotter)
 
 
 def _plates(axes: Rows, radius: float) -> Rows:

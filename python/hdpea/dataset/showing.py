@@ -13,8 +13,7 @@ from hdpea.colors import MOST_ANISOTROPIC, Colors, as_bytes, ratio_colors
 from hdpea.dataset.options import GroundTruthOptions
 from hdpea.dataset.quality import spacing_of, stretches
 from hdpea.dataset.sample import Sample
-from hdpea.outputs import check_output, replacing
-from hdpea.picture import PICTURE_FORMATS, check_drawing, load_pyvista, look_at, point_size
+from hdpea.picture import drawn_to, look_at, point_size
 from hdpea.viewpoint import choose_view_of_points
 
 STROKES = 600
@@ -40,9 +39,6 @@ def draw_sample(path: Path, sample: Sample, options: GroundTruthOptions | None =
     UsageError
         If nothing can be drawn on this machine, or the file cannot be written.
     """
-    check_output(path, PICTURE_FORMATS)
-    check_drawing()
-    pyvista = load_pyvista()
     view_from_unit = choose_view_of_points(sample.points.astype(np.float64), sample.normals.astype(np.float64))
     points = sample.points @ view_from_unit.T
     facing = (sample.normals @ view_from_unit.T)[:, 2] > 0
@@ -51,28 +47,23 @@ def draw_sample(path: Path, sample: Sample, options: GroundTruthOptions | None =
     ratio = stretch[:, 0] / stretch[:, 1]
     panels = [normal_colors(sample.normals), psi_colors(sample.psi), ratio_colors(ratio)]
 
-    plotter = pyvista.Plotter(
-        off_screen=True, shape=(1, len(panels)), window_size=[PANEL[0] * len(panels), PANEL[1]], border=False
-    )
-    plotter.background_color = pyvista.Color("white")
     size = point_size(int(facing.sum()), PANEL)
-    for column, colors in enumerate(panels):
-        plotter.subplot(0, column)
-        # Points hide nothing behind them: those of the far side are left out.
-        plotter.add_points(
-            points[facing],
-            scalars=colors[facing],
-            rgb=True,
-            point_size=size,
-            render_points_as_spheres=True,
-            lighting=False,
-        )
-        look_at(plotter, points, PANEL)
     direction2 = np.cross(sample.normals, sample.direction1) @ view_from_unit.T
-    _add_strokes(plotter, pyvista, points, direction2, ratio, np.flatnonzero(facing))
-    with replacing(path) as partial:
-        plotter.screenshot(partial)
-    plotter.close()
+    window = [PANEL[0] * len(panels), PANEL[1]]
+    with drawn_to(path, shape=(1, len(panels)), window_size=window, border=False) as (pyvista, plotter):
+        for column, colors in enumerate(panels):
+            plotter.subplot(0, column)
+            # Points hide nothing behind them: those of the far side are left out.
+            plotter.add_points(
+                points[facing],
+                scalars=colors[facing],
+                rgb=True,
+                point_size=size,
+                render_points_as_spheres=True,
+                lighting=False,
+            )
+            look_at(plotter, points, PANEL)
+        _add_strokes(plotter, pyvista, points, direction2, ratio, np.flatnonzero(facing))
 
 
 def normal_colors(normals: NDArray[np.float32]) -> Colors:
