@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from hdpea import _core
 from hdpea.cells import restricted_cells
+from hdpea.coverage import covered
 from hdpea.errors import CannotReconstruct, core_errors_translated
 from hdpea.frame import UnitFrame
 from hdpea.options import MeshingOptions
@@ -69,19 +70,21 @@ def extract_mesh(
     with core_errors_translated():
         normals = np.ascontiguousarray(surface.normals[particles.nearest])
         candidates, radii = restricted_cells(particles.coordinates, bases[particles.nearest], DISK_RADIUS)
+        on_points = covered(candidates, particles, surface)
         why = f"{DISK_RADIUS:g} mean distances of the vertices in the embedding; more where they are sparse"
         smallest = float(radii.min()) * surface.frame.diagonal
         disks = Choice("disk_radius", smallest, "world units under the metric", why)
         limits = _core.ExtractionOptions()
         limits.min_component_faces = options.min_component
-        extracted = _core.extract_manifold(particles.coordinates, normals, radii, candidates, limits)
+        extracted = _core.extract_manifold(particles.coordinates, normals, radii, on_points, limits)
         if len(extracted.faces) == 0:
             raise CannotReconstruct(
                 "No triangle holds on these points.", "They may be too few or too noisy; try fewer vertices."
             )
         vertices = np.ascontiguousarray(particles.coordinates[extracted.sources, :3])
         mesh = _fill_holes(vertices, extracted, surface.frame, options)
-        return replace(mesh, choices=(disks, *mesh.choices))
+        refused = {"refused_uncovered": len(candidates.triangles) - len(on_points.triangles)}
+        return replace(mesh, statistics=refused | mesh.statistics, choices=(disks, *mesh.choices))
 
 
 def _fill_holes(

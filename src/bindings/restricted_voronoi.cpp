@@ -7,6 +7,7 @@
 void register_restricted_voronoi(nb::module_& module) {
   using hdpea::Candidates;
   nb::class_<Candidates>(module, "Candidates", "Triangles dual to restricted Voronoi vertices, and the cells' areas.")
+      .def(nb::init<hdpea::Faces, Eigen::VectorXi, Eigen::VectorXd>(), "triangles"_a, "counts"_a, "cell_areas"_a)
       .def_ro("triangles", &Candidates::triangles, "(t, 3) int64, rows ascending, in lexicographic order")
       .def_ro("counts", &Candidates::counts, "(t,) int32 in 1..3: how many of the three cells agree; 3 is T3")
       .def_ro("cell_areas", &Candidates::cell_areas, "(n,) area of each seed's cell");
