@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How noisy a cloud is, told from the points alone."""
+"""How rough a cloud is, told from the points alone."""
 
 from __future__ import annotations
+
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,23 +20,71 @@ CLEANEST = 0.25
 """Share of the points whose residual is below the one reported: creases are not noise, for they are not everywhere."""
 
 
-def noise_in_spacings(points: NDArray[np.float64]) -> float:
-    """Return the standard deviation of points (n, 3) across their surface, in spacings of the points; 0 for under 24.
+SPREAD = 0.525
+"""Half of what a plane leaves over of noise lies within so many standard deviations, and more: 0.54 to 0.55 measured.
 
-    It is what quadratic surfaces leave over, so that curvature does not count as noise; and the spacing is the side of
-    the square of surface that each point has for itself.
+Of two sheets, as of thin walls, it lies nearer to their two heights: 0.41 to 0.51 on twelve such models."""
+
+
+@dataclass(frozen=True)
+class Roughness:
+    """How far points are off a smooth surface, and of what kind that is.
+
+    Attributes
+    ----------
+    deviation
+        Standard deviation across the surface, in spacings of the points: the side of the square of surface that each
+        has for itself. It is what quadratic surfaces leave over, so that curvature does not count.
+    like_noise
+        Whether it is spread like noise. The two sides of thin walls are not, nor are scans that do not quite meet.
     """
+
+    deviation: float
+    like_noise: bool
+
+    @property
+    def noise(self) -> float:
+        """The deviation if it is noise, else 0."""
+        return self.deviation if self.like_noise else 0.0
+
+    def __str__(self) -> str:
+        """Say how far, in spacings."""
+        return f"the points are {self.deviation:.2g} spacings off a smooth surface"
+
+
+def roughness_of(points: NDArray[np.float64]) -> Roughness:
+    """Return how rough points (n, 3) are: not at all for under 24."""
     count = len(points)
     if count < NEIGHBORS:
-        return 0.0
+        return Roughness(0.0, False)
     rows = np.linspace(0, count - 1, min(SAMPLES, count)).astype(np.int64)
     around = points[_core.nearest_neighbors(points, points[rows], NEIGHBORS)]
     ways = around - around.mean(axis=1, keepdims=True)
     radii = np.linalg.norm(around - points[rows, None], axis=2).max(axis=1)
     _, frames = np.linalg.eigh(ways.swapaxes(1, 2) @ ways)
     height, u, v = np.moveaxis((ways @ frames) / radii[:, None, None], 2, 0)
-    design = np.stack([np.ones_like(u), u, v, u * u, u * v, v * v], axis=2)
-    # Projected by the pseudo-inverse: neighbours on a line leave the surface open, and nothing over.
-    left = height - (design @ (np.linalg.pinv(design) @ height[:, :, None]))[:, :, 0]
-    deviations = np.sqrt(np.square(left).sum(axis=1) / (NEIGHBORS - design.shape[2]))
-    return float(np.quantile(deviations * np.sqrt(NEIGHBORS / np.pi), CLEANEST))
+    plane = np.stack([np.ones_like(u), u, v], axis=2)
+    spread = float(np.median(_shortest_half(_left_over(plane, height)) / _deviation(plane, height)))
+    quadratic = np.concatenate([plane, np.stack([u * u, u * v, v * v], axis=2)], axis=2)
+    deviation = float(np.quantile(_deviation(quadratic, height) * np.sqrt(NEIGHBORS / np.pi), CLEANEST))
+    return Roughness(deviation, spread >= SPREAD)
+
+
+def _left_over(design: NDArray[np.float64], height: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return what is left of heights (m, k) by the least-squares fit of a design (m, k, c)."""
+    # By the pseudo-inverse: neighbours on a line leave the surface open, and nothing over.
+    left: NDArray[np.float64] = height - (design @ (np.linalg.pinv(design) @ height[:, :, None]))[:, :, 0]
+    return left
+
+
+def _deviation(design: NDArray[np.float64], height: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return the standard deviation (m,) of heights (m, k) that the fit of a design (m, k, c) leaves; never quite 0."""
+    degrees_of_freedom = design.shape[1] - design.shape[2]
+    squares = np.square(_left_over(design, height)).sum(axis=1)
+    return np.asarray(np.sqrt(np.maximum(squares / degrees_of_freedom, np.finfo(np.float64).tiny)))
+
+
+def _shortest_half(values: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return half the length (m,) of the shortest interval that holds more than half of each row (m, k)."""
+    ordered, most = np.sort(values, axis=1), values.shape[1] // 2
+    return np.asarray((ordered[:, most:] - ordered[:, :-most]).min(axis=1) / 2)

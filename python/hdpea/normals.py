@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from hdpea import _core
 from hdpea.errors import UnreadableInput, core_errors_translated
 from hdpea.frame import UnitFrame
+from hdpea.noise import roughness_of
 from hdpea.options import NormalOptions
 from hdpea.orientation import Unoriented, Vectors, orient, require_signs
 from hdpea.progress import ProgressCallback, of_phase, tell
@@ -19,6 +20,11 @@ from hdpea.surface import NEIGHBORS, Surface, require_surface
 
 ORIENTATION_NEIGHBORS = 16
 """Nearest points to which a point hands on its orientation, and fewest that an estimated normal is fitted to."""
+
+NEIGHBORS_PER_NOISE, MOST_NEIGHBORS = 240, 80
+"""Of an estimated normal: for each spacing of noise, and the most.
+
+A plane's slope is off by 2 sqrt(pi) noise / (spacing n) with n neighbours: so by a degree."""
 
 
 @dataclass(frozen=True)
@@ -125,8 +131,12 @@ def _directions(
     count = options.normal_neighbors
     choices: tuple[Choice, ...] = ()
     if count is None:
-        count = min(max(ORIENTATION_NEIGHBORS, round(2 * points_per_vertex)), NEIGHBORS)
+        roughness = roughness_of(points)
+        enough = min(round(NEIGHBORS_PER_NOISE * roughness.noise), MOST_NEIGHBORS)
+        count = max(ORIENTATION_NEIGHBORS, min(round(2 * points_per_vertex), NEIGHBORS), enough)
         why = f"twice the points per vertex, from {ORIENTATION_NEIGHBORS} to {NEIGHBORS}"
+        if count == enough:
+            why = str(roughness)
         choices = (Choice("normal_neighbors", count, "points", why),)
     fitted = neighbors if count <= NEIGHBORS else _core.nearest_neighbors(points, count)
     estimated = _core.estimate_normals(points, np.ascontiguousarray(fitted[:, :count]))

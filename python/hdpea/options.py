@@ -56,7 +56,8 @@ class NormalOptions(Checked):
     )
     normal_neighbors: int | None = option(
         None,
-        "nearest points whose plane gives an estimated normal; default: two for each point per vertex, 16 to 40",
+        "nearest points whose plane gives an estimated normal; default: two for each point per vertex, 16 to 40; "
+        "to 80 if the points are noisy",
         minimum=3,
     )
     orient: str = option(
@@ -85,9 +86,10 @@ class DenoisingOptions(Checked):
     """How noise is taken from the points (``hdpea.denoising``)."""
 
     denoise: str = option(
-        "none",
-        "mls: first move each point onto the quadric that fits its neighbours (moving least squares)",
-        choices=("none", "mls"),
+        "auto",
+        "mls: first move each point onto the quadric that fits its neighbours (moving least squares); auto: if the "
+        "points are more than 0.15 of their spacing off a smooth surface",
+        choices=("auto", "none", "mls"),
     )
     denoise_neighbors: int = option(80, "mls: nearest points that it is fitted to", minimum=6)
 

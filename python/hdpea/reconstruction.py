@@ -26,7 +26,7 @@ from hdpea.tangents import tangent_bases
 from hdpea.threads import limited_threads
 
 PHASES = ("normals", "denoising", "embedding", "particles", "meshing", "refinement", "measuring")
-"""The phases that ``progress`` hears of, in order; of denoising only if it is asked for."""
+"""The phases that ``progress`` hears of, in order; of denoising only if there is noise, or it is asked for."""
 
 BUDGET_TOLERANCE = 0.01
 """Share of the vertices or faces asked for by which the mesh may miss them."""
@@ -111,7 +111,8 @@ def reconstruct(
             )
         _tell_of_cloud(report, cloud, oriented)
         with report.clock.stage("denoising"):
-            surface = denoised(oriented.surface, options.denoising, progress)
+            surface, choices = denoised(oriented, options.denoising, progress)
+            report.choices += choices
         mesh = _mesh_of(surface, report, progress, embedder)
         with report.clock.stage("measuring"):
             tell(progress, "measuring", 0)

@@ -12,6 +12,7 @@ import pytest
 from hdpea.denoising import denoised
 from hdpea.errors import Interrupted, UsageError
 from hdpea.frame import UnitFrame
+from hdpea.normals import OrientedSurface
 from hdpea.options import DenoisingOptions, MeshingOptions, Options
 from hdpea.reconstruction import reconstruct
 from hdpea.surface import Surface
@@ -20,14 +21,15 @@ MLS = DenoisingOptions(denoise="mls")
 POINTS = 3000
 
 
-def surface_of(cloud: clouds.Cloud) -> Surface:
+def oriented(cloud: clouds.Cloud, estimated: bool = False) -> OrientedSurface:
     frame = UnitFrame.around(cloud[0])
-    return Surface.of(frame, frame.to_unit(cloud[0]), cloud[1])
+    surface = Surface.of(frame, frame.to_unit(cloud[0]), cloud[1])
+    return OrientedSurface(surface, len(cloud[0]) if estimated else 0, None, reoriented=False)
 
 
 def after(cloud: clouds.Cloud) -> clouds.Cloud:
     """Return the points in the world, and the normals, after denoising."""
-    made = denoised(surface_of(cloud), MLS)
+    made, _ = denoised(oriented(cloud), MLS)
     return made.frame.to_world(made.points_in_unit), made.normals
 
 
@@ -43,9 +45,29 @@ def rms(values: clouds.Array) -> float:
     return float(np.sqrt((values**2).mean()))
 
 
-def test_nothing_is_done_unless_asked() -> None:
-    surface = surface_of(clouds.sphere(100))
-    assert denoised(surface) is surface
+@pytest.mark.parametrize("cloud", [clouds.sphere, clouds.torus, clouds.box])
+def test_clean_points_stay_as_they_are(cloud: Callable[[int], clouds.Cloud]) -> None:
+    given = oriented(cloud(POINTS), estimated=True)
+    made, (choice,) = denoised(given, DenoisingOptions())
+    assert made is given.surface
+    assert (choice.name, choice.value) == ("denoise", "none")
+
+
+def test_noisy_points_are_denoised_unless_they_are_not_to_be() -> None:
+    given = oriented(noisy(clouds.sphere(POINTS), 0.03))
+    made, (choice,) = denoised(given, DenoisingOptions())
+    np.testing.assert_array_equal(made.points_in_unit, denoised(given, MLS)[0].points_in_unit)
+    assert choice.value == "mls"
+    assert "0.39 spacings" in choice.why  # of noise of half a spacing
+    assert denoised(given, DenoisingOptions(denoise="none")) == (given.surface, ())
+
+
+@pytest.mark.parametrize(("estimated", "way"), [(False, "none"), (True, "mls")])
+def test_the_sides_of_a_thin_wall_are_parted_unless_normals_do_it(estimated: bool, way: str) -> None:
+    wall = clouds.two_sheets(POINTS, spacings_apart=1, facing=-1)
+    _, (choice,) = denoised(oriented(wall, estimated), DenoisingOptions())
+    assert choice.value == way
+    assert "not as if by noise" in choice.why
 
 
 def test_a_plane_stays_where_it_is() -> None:
@@ -108,14 +130,14 @@ def test_a_mesh_of_noisy_points_gets_better() -> None:
     meshing = MeshingOptions(vertices=800)
     errors = [
         rms(np.linalg.norm(reconstruct(*given, Options(denoising=each, meshing=meshing)).vertices, axis=1) - 1)
-        for each in (DenoisingOptions(), MLS)
+        for each in (DenoisingOptions(denoise="none"), MLS)
     ]
     assert errors[1] < 0.6 * errors[0]
 
 
 def test_it_can_be_cancelled() -> None:
     with pytest.raises(Interrupted):
-        denoised(surface_of(clouds.sphere(100)), MLS, lambda _phase, _fraction: False)
+        denoised(oriented(clouds.sphere(100)), MLS, lambda _phase, _fraction: False)
 
 
 def test_too_few_neighbors_are_refused() -> None:

@@ -112,13 +112,14 @@ def test_the_report_tells_everything(tmp_path: Path) -> None:
         "vertices",
         "normal_neighbors",
         "orient",
+        "denoise",
         "bending_length",
         "curvature_radius",
         "disk_radius",
         "fill_holes",
     }
     assert chosen.keys() == wanted
-    assert chosen.pop("orient")["value"] == "wnnc"
+    assert (chosen.pop("orient")["value"], chosen.pop("denoise")["value"]) == ("wnnc", "none")
     for choice in chosen.values():
         assert choice["value"] > 0
         assert len(choice["why"]) > 10

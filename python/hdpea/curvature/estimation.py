@@ -21,7 +21,7 @@ from hdpea.curvature.tensors import CurvatureTensors, Estimate, metric_tensors
 from hdpea.embedding import embed_surface
 from hdpea.embedding.embedded import Metric
 from hdpea.errors import core_errors_translated
-from hdpea.noise import noise_in_spacings
+from hdpea.noise import roughness_of
 from hdpea.normals import ORIENTATION_NEIGHBORS, oriented_surface
 from hdpea.options import POINTS_PER_VERTEX, NormalOptions
 from hdpea.progress import ProgressCallback, tell
@@ -100,11 +100,11 @@ def _fitting_of_normals(cloud: PointCloud, options: CurvatureOptions) -> tuple[N
     given = cloud.normals is not None and cloud.normals.any(axis=1).all() and options.normals.normals != "estimate"
     if given or options.normals.normal_neighbors is not None or options.estimation.method == "jet":
         return options.normals, ()
-    noise = noise_in_spacings(cloud.points - cloud.points.mean(axis=0))
-    count = min(round(NORMAL_NEIGHBORS_PER_NOISE * noise), MOST_NORMAL_NEIGHBORS)
+    roughness = roughness_of(cloud.points - cloud.points.mean(axis=0))
+    count = min(round(NORMAL_NEIGHBORS_PER_NOISE * roughness.noise), MOST_NORMAL_NEIGHBORS)
     if count <= ORIENTATION_NEIGHBORS:
         return options.normals, ()
-    choice = Choice("normal_neighbors", count, "points", f"the points are {noise:.2g} spacings off a smooth surface")
+    choice = Choice("normal_neighbors", count, "points", str(roughness))
     return replace(options.normals, normal_neighbors=count), (choice,)
 
 
