@@ -20,7 +20,7 @@ from hdpea.benchmark import provenance as provenance_module
 from hdpea.benchmark.curves import draw_curves
 from hdpea.benchmark.drawing import ERROR_COLORS, RED_FROM, error_colors, subdivided
 from hdpea.benchmark.means import FLOOR, best_of, means_of
-from hdpea.benchmark.nearest import nearest_sentence
+from hdpea.benchmark.nearest import nearest_sentences
 from hdpea.benchmark.provenance import commit
 from hdpea.benchmark.record import Record, key_of, read_record, write_record
 from hdpea.benchmark.results import curves_of, results_in_markdown
@@ -88,11 +88,13 @@ def test_the_best_are_bold_and_ties_are_not() -> None:
 
 def test_who_is_nearest_on_which_model_is_told() -> None:
     records = [*RECORDS[:3], record("b", "theirs", 8e-5)]
-    assert nearest_sentence(records, SUITE, "clean", 100) == "Smallest exact CD: ours on a; theirs on b."
-    assert nearest_sentence(RECORDS, SUITE, "clean", 100) == "Smallest exact CD: ours on a, b."  # theirs failed on b
-    assert nearest_sentence(RECORDS, SUITE, "clean", 1000) == ""  # nobody to compare with
+    told = "Smallest exact CD: ours on a; theirs on b. Smallest exact HD: ours on a, b."
+    assert nearest_sentences(records, SUITE, "clean", 100) == told
+    told = nearest_sentences(RECORDS, SUITE, "clean", 100)
+    assert told.startswith("Smallest exact CD: ours on a, b.")  # theirs failed on b
+    assert nearest_sentences(RECORDS, SUITE, "clean", 1000) == ""  # nobody to compare with
     many = [record(str(i), name, error) for i in range(9) for name, error in (("ours", 2e-5), ("theirs", 1e-5))]
-    assert nearest_sentence(many, SUITE, "clean", 100) == "Smallest exact CD: theirs on 9 models."
+    assert nearest_sentences(many, SUITE, "clean", 100).startswith("Smallest exact CD: theirs on 9 models.")
 
 
 def test_the_page_of_results_says_all_of_it() -> None:

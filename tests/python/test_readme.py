@@ -41,6 +41,24 @@ def test_the_options_are_those_of_the_command() -> None:
     assert written == options_table(), f"paste this between the marks of README.md:\n{options_table()}"
 
 
+HEADLINE = (
+    "method", "vertices", "exact CD (1e-5)", "exact HD (1e-2)", "G", "F1", "NC", "manifold", "watertight", "CPU seconds"
+)  # fmt: skip
+
+
+def headline_table() -> str:
+    """Return some columns of the results of the suite `sampling`."""
+    results = (ROOT / "docs/results/sampling/results.md").read_text().split("## Published")[0]
+    rows = [line.strip("| ").split(" | ") for line in results.splitlines() if line.startswith("|")]
+    shown = [rows[0].index(title) for title in HEADLINE]
+    return "\n".join("| " + " | ".join((row + [""] * len(rows[0]))[i] for i in shown) + " |" for row in rows)
+
+
+def test_the_headline_is_that_of_the_suite() -> None:
+    written = README.split("<!-- results -->\n")[1].split("\n<!-- /results -->")[0]
+    assert written == headline_table(), f"paste this between the marks of README.md:\n{headline_table()}"
+
+
 def kinds_of_error(kind: type[HdpeaError] = HdpeaError) -> set[type[HdpeaError]]:
     return {kind}.union(*(kinds_of_error(each) for each in kind.__subclasses__()))
 

@@ -12,25 +12,35 @@ NAMED = 8
 """Models that are named; of more, the number is told."""
 
 
-def nearest_sentence(records: Sequence[Record], suite: Suite, given: str, vertices: int) -> str:
-    """Return who has the smallest exact chamfer distance on which models; empty unless several made a mesh of one.
+ERRORS = {"exact CD": "chamfer", "exact HD": "hausdorff"}
+"""Errors of which it is told, by their titles: the names of their scores."""
+
+
+def nearest_sentences(records: Sequence[Record], suite: Suite, given: str, vertices: int) -> str:
+    """Return who has the smallest errors on which models; empty unless several methods made a mesh of one.
 
     Of equals, the first in the suite is named.
     """
-    path = f"accuracy.{suite.options.normalization}.chamfer"
-    here = [each for each in records if (each.given, each.vertices) == (given, vertices)]
+    here = [each for each in records if (each.given, each.vertices) == (given, vertices) and not each.failed]
+    if len({each.method for each in here}) < 2:
+        return ""
+    told = []
+    for title, name in ERRORS.items():
+        won = _won(here, f"accuracy.{suite.options.normalization}.{name}")
+        by_method = [f"{method.name} on {_models(won[method.name])}" for method in suite.methods if method.name in won]
+        told.append(f"Smallest {title}: {'; '.join(by_method)}.")
+    return " ".join(told)
+
+
+def _won(records: Sequence[Record], path: str) -> dict[str, list[str]]:
+    """Return the models on which each method has the smallest score."""
     won: dict[str, list[str]] = {}
-    several = False
-    for model in dict.fromkeys(each.model for each in here):
-        scores = {each.method: each.score(path) for each in here if each.model == model}
+    for model in dict.fromkeys(each.model for each in records):
+        scores = {each.method: each.score(path) for each in records if each.model == model}
         known = {name: score for name, score in scores.items() if score is not None}
-        several |= len(known) > 1
         if known:
             won.setdefault(min(known, key=known.__getitem__), []).append(model)
-    if not several:
-        return ""
-    by_method = [f"{method.name} on {_models(won[method.name])}" for method in suite.methods if method.name in won]
-    return f"Smallest exact CD: {'; '.join(by_method)}."
+    return won
 
 
 def _models(names: Sequence[str]) -> str:

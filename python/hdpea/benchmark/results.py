@@ -9,7 +9,7 @@ from pathlib import Path
 from hdpea.benchmark.curves import draw_curves
 from hdpea.benchmark.gallery import Gallery
 from hdpea.benchmark.means import COLUMNS, FLOOR, means_of
-from hdpea.benchmark.nearest import nearest_sentence
+from hdpea.benchmark.nearest import nearest_sentences
 from hdpea.benchmark.page import write_page
 from hdpea.benchmark.provenance import provenance
 from hdpea.benchmark.record import Record
@@ -66,7 +66,7 @@ def results_in_markdown(suite: Suite, records: Sequence[Record], curves: dict[st
         for vertices in suite.options.vertices:
             parts.append(f"## {given.name}, {vertices:,} vertices")
             parts.append(markdown_table(means_of(records, suite, given.name, vertices)))
-            parts.append(nearest_sentence(records, suite, given.name, vertices))
+            parts.append(nearest_sentences(records, suite, given.name, vertices))
     parts += [f"![{name}]({name}.svg)" for name in curves]
     if suite.quoted:
         parts += ["## Published elsewhere, on other data", quoted_table(suite.quoted)]
