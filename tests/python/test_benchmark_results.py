@@ -19,7 +19,7 @@ import trimesh
 from hdpea.benchmark import provenance as provenance_module
 from hdpea.benchmark.curves import draw_curves
 from hdpea.benchmark.drawing import ERROR_COLORS, RED_FROM, error_colors, subdivided
-from hdpea.benchmark.means import FLOOR, best_of, means_of
+from hdpea.benchmark.means import COLUMNS, FLOOR, best_of, error_by_size, means_of
 from hdpea.benchmark.nearest import nearest_sentences
 from hdpea.benchmark.provenance import commit
 from hdpea.benchmark.record import Record, key_of, read_record, write_record
@@ -180,6 +180,14 @@ def test_curves_go_down_where_errors_do() -> None:
     texts = [each.text for each in root.iter() if each.tag.endswith("text")]
     assert {"b & c", "100", "1,000", "10"} <= set(texts)
     assert "none" not in texts
+
+
+def test_curves_are_of_geometric_means_over_what_every_method_finished() -> None:
+    column = next(each for each in COLUMNS if each.title == "exact CD (1e-5)")
+    curves = error_by_size([*RECORDS[:3], record("b", "theirs", 12e-5), *RECORDS[4:]], SUITE, "clean", column)
+    assert curves["ours"] == [(99, pytest.approx(3)), (999, pytest.approx(0.1))]  # of 1 and 9
+    assert curves["theirs"] == [(99, pytest.approx(6))]  # of 3 and 12; nothing finished at 1,000
+    assert error_by_size(RECORDS, SUITE, "clean", column)["ours"][0] == (99, pytest.approx(1))  # theirs failed on b
 
 
 def test_curves_are_drawn_for_several_sizes() -> None:

@@ -5,11 +5,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from math import exp, log
 
 from hdpea.benchmark.record import Record
 from hdpea.benchmark.suite import Suite
 
 FLOOR = "floor"
+Point = tuple[float, float]
 
 
 @dataclass(frozen=True)
@@ -76,8 +78,8 @@ def means_of(records: Sequence[Record], suite: Suite, given: str, vertices: int)
     of_method = {
         method.name: {each.model: each for each in here if each.method == method.name} for method in suite.methods
     }
-    done = {name: {each.model for each in runs.values() if not each.failed} for name, runs in of_method.items()}
-    common = set.intersection(*[models for models in done.values() if models] or [set()])
+    done = _finished(here, suite)
+    common = _common(done)
     unit = suite.options.normalization
     rows = []
     for name, runs in of_method.items():
@@ -92,6 +94,39 @@ def means_of(records: Sequence[Record], suite: Suite, given: str, vertices: int)
         for column in COLUMNS
     )
     return [*rows, Means(FLOOR, len(common), len(common), floors, (None,) * len(TIMES))] if finished else rows
+
+
+def error_by_size(records: Sequence[Record], suite: Suite, given: str, column: Column) -> dict[str, list[Point]]:
+    """Return, for each method, the mean number of vertices and the geometric mean of an error, by wanted size.
+
+    Over the models that every method finished at that size. Errors of models differ by powers of ten, so an ordinary
+    mean would show the worst model alone.
+    """
+    curves: dict[str, list[Point]] = {method.name: [] for method in suite.methods}
+    for vertices in suite.options.vertices:
+        here = [each for each in records if (each.given, each.vertices) == (given, vertices)]
+        common = _common(_finished(here, suite))
+        for name, curve in curves.items():
+            counted = [each for each in here if each.method == name and each.model in common and not each.failed]
+            errors = [each.score(column.path.format(unit=suite.options.normalization)) for each in counted]
+            size = _mean([each.score("topology.vertices") for each in counted])
+            if size and all(errors):
+                logarithm = _mean([log(error) for error in errors if error])
+                curve.append((size, column.scale * exp(logarithm or 0.0)))
+    return curves
+
+
+def _finished(records: Sequence[Record], suite: Suite) -> dict[str, set[str]]:
+    """Return the models that each method finished."""
+    return {
+        method.name: {each.model for each in records if each.method == method.name and not each.failed}
+        for method in suite.methods
+    }
+
+
+def _common(finished: dict[str, set[str]]) -> set[str]:
+    """Return the models that all methods finished, but for those that finished none."""
+    return set.intersection(*[models for models in finished.values() if models] or [set()])
 
 
 def _mean(values: Sequence[float | None]) -> float | None:

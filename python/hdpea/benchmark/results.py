@@ -8,7 +8,7 @@ from pathlib import Path
 
 from hdpea.benchmark.curves import draw_curves
 from hdpea.benchmark.gallery import Gallery
-from hdpea.benchmark.means import COLUMNS, FLOOR, means_of
+from hdpea.benchmark.means import COLUMNS, error_by_size, means_of
 from hdpea.benchmark.nearest import nearest_sentences
 from hdpea.benchmark.page import write_page
 from hdpea.benchmark.provenance import provenance
@@ -82,15 +82,12 @@ def curves_of(suite: Suite, records: Sequence[Record]) -> dict[str, str]:
         return {}
     drawn = {}
     for number, given in enumerate(suite.inputs, start=1):
-        budgets = [means_of(records, suite, given.name, vertices) for vertices in suite.options.vertices]
         for title in CURVE_COLUMNS:
-            column = next(i for i, each in enumerate(COLUMNS) if each.title == title)
-            curves: dict[str, list[tuple[float, float]]] = {method.name: [] for method in suite.methods}
-            for row in (row for rows in budgets for row in rows if row.method != FLOOR):
-                size, error = row.values[0], row.values[column]
-                if size and error:
-                    curves[row.method].append((size, COLUMNS[column].scale * error))
+            column = next(each for each in COLUMNS if each.title == title)
+            curves = error_by_size(records, suite, given.name, column)
             if any(curves.values()):
                 kind = title.split()[1].lower()
-                drawn[f"curves-{number}-{kind}"] = draw_curves(f"{title} against size: {given.name}", title, curves)
+                drawn[f"curves-{number}-{kind}"] = draw_curves(
+                    f"{title} against size, geometric means: {given.name}", title, curves
+                )
     return drawn
