@@ -37,12 +37,26 @@ def covered(candidates: _core.Candidates, particles: Particles, surface: Surface
     chosen = np.ones(len(corners), dtype=bool)
     for weights in MIDDLES:
         places = np.einsum("c,tcx->tx", weights, positions[corners])
-        below = _core.nearest_neighbors(surface.points_in_unit, places, POINTS_BELOW)  # (t, k)
-        ways = surface.points_in_unit[below] - places[:, None]
-        near = np.einsum("tkx,tkx->tk", ways, ways) <= farthest[:, None] ** 2
-        facing = np.einsum("tkx,tx->tk", surface.normals[below], towards) > 0
-        chosen &= (near & facing).any(axis=1)
+        # The nearest point alone settles it for nearly all.
+        doubtful = np.flatnonzero(~_lie_on(surface, places, towards, farthest, 1))
+        still = _lie_on(surface, places[doubtful], towards[doubtful], farthest[doubtful], POINTS_BELOW)
+        chosen[doubtful[~still]] = False
     return _core.Candidates(corners[chosen], candidates.counts[chosen], candidates.cell_areas)
+
+
+def _lie_on(
+    surface: Surface,
+    places: NDArray[np.float64],
+    towards: NDArray[np.float64],
+    farthest: NDArray[np.float64],
+    count: int,
+) -> NDArray[np.bool_]:
+    """Return whether one of the `count` nearest points to each place (t, 3) is near enough (t,) and faces `towards`."""
+    below = _core.nearest_neighbors(surface.points_in_unit, places, count)  # (t, k)
+    ways = surface.points_in_unit[below] - places[:, None]
+    near = np.einsum("tkx,tkx->tk", ways, ways) <= farthest[:, None] ** 2
+    facing = np.einsum("tkx,tx->tk", surface.normals[below], towards) > 0
+    return np.asarray((near & facing).any(axis=1))
 
 
 def _reach(particles: Particles, surface: Surface) -> NDArray[np.float64]:
