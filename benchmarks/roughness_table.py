@@ -19,9 +19,9 @@ from hdpea.dataset.options import SamplingOptions
 from hdpea.dataset.sampling import sample_surface
 from hdpea.dataset.sources import find_meshes
 from hdpea.dataset.surface_file import read_surface
-from hdpea.denoising import ROUGH
 from hdpea.frame import UnitFrame
 from hdpea.noise import roughness_of
+from hdpea.options import ROUGH
 
 NOISE = (0.0, 0.0005, 0.001, 0.003, 0.005)
 

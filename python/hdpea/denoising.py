@@ -9,17 +9,13 @@ from hdpea import _core
 from hdpea.errors import core_errors_translated
 from hdpea.noise import roughness_of
 from hdpea.normals import OrientedSurface
-from hdpea.options import DenoisingOptions
+from hdpea.options import ROUGH, DenoisingOptions
 from hdpea.progress import ProgressCallback, tell
 from hdpea.report import Choice
 from hdpea.surface import Surface
 
 ROUNDS = 2
 """The second fits along the normals that the first one found, and with the neighbours that they tell."""
-
-
-ROUGH = 0.15
-"""Roughness, in spacings of the points, from which moving least squares mends more than it blurs."""
 
 
 def denoised(

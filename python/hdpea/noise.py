@@ -64,9 +64,11 @@ def roughness_of(points: NDArray[np.float64]) -> Roughness:
     _, frames = np.linalg.eigh(ways.swapaxes(1, 2) @ ways)
     height, u, v = np.moveaxis((ways @ frames) / radii[:, None, None], 2, 0)
     plane = np.stack([np.ones_like(u), u, v], axis=2)
-    spread = float(np.median(_shortest_half(_left_over(plane, height)) / _deviation(plane, height)))
+    left = _left_over(plane, height)
+    spread = float(np.median(_shortest_half(left) / _deviation(left, plane.shape[2])))
     quadratic = np.concatenate([plane, np.stack([u * u, u * v, v * v], axis=2)], axis=2)
-    deviation = float(np.quantile(_deviation(quadratic, height) * np.sqrt(NEIGHBORS / np.pi), CLEANEST))
+    deviations = _deviation(_left_over(quadratic, height), quadratic.shape[2]) * np.sqrt(NEIGHBORS / np.pi)
+    deviation = float(np.quantile(deviations, CLEANEST))
     return Roughness(deviation, spread >= SPREAD)
 
 
@@ -77,11 +79,10 @@ def _left_over(design: NDArray[np.float64], height: NDArray[np.float64]) -> NDAr
     return left
 
 
-def _deviation(design: NDArray[np.float64], height: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return the standard deviation (m,) of heights (m, k) that the fit of a design (m, k, c) leaves; never quite 0."""
-    degrees_of_freedom = design.shape[1] - design.shape[2]
-    squares = np.square(_left_over(design, height)).sum(axis=1)
-    return np.asarray(np.sqrt(np.maximum(squares / degrees_of_freedom, np.finfo(np.float64).tiny)))
+def _deviation(left: NDArray[np.float64], unknowns: int) -> NDArray[np.float64]:
+    """Return the standard deviation (m,) of what a fit of so many unknowns leaves over (m, k); never quite 0."""
+    squares = np.square(left).sum(axis=1)
+    return np.asarray(np.sqrt(np.maximum(squares / (left.shape[1] - unknowns), np.finfo(np.float64).tiny)))
 
 
 def _shortest_half(values: NDArray[np.float64]) -> NDArray[np.float64]:

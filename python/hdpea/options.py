@@ -81,6 +81,10 @@ class NormalOptions(Checked):
             )
 
 
+ROUGH = 0.15
+"""Roughness, in spacings of the points, from which moving least squares mends more than it blurs."""
+
+
 @dataclass(frozen=True)
 class DenoisingOptions(Checked):
     """How noise is taken from the points (``hdpea.denoising``)."""
@@ -88,7 +92,7 @@ class DenoisingOptions(Checked):
     denoise: str = option(
         "auto",
         "mls: first move each point onto the quadric that fits its neighbours (moving least squares); auto: if the "
-        "points are more than 0.15 of their spacing off a smooth surface",
+        f"points are more than {ROUGH:g} of their spacing off a smooth surface",
         choices=("auto", "none", "mls"),
     )
     denoise_neighbors: int = option(80, "mls: nearest points that it is fitted to", minimum=6)

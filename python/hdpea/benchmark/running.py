@@ -13,6 +13,7 @@ import numpy as np
 
 from hdpea.benchmark.making import Made, made_by
 from hdpea.benchmark.methods import METHODS, Cloud, libraries, method_options
+from hdpea.benchmark.methods.reduction import reduced
 from hdpea.benchmark.surfaces import surface_of
 from hdpea.dataset.isolation import Outcome, run_isolated
 from hdpea.errors import CannotReconstruct
@@ -49,7 +50,6 @@ def work(task: Task) -> Made:
         import_module(library)
     if method.reduces:
         surface = surface_of(task.cloud, task.method, options, task.surfaces)
-        reduced = import_module("hdpea.benchmark.methods.reduction").reduced
         made = surface.then(made_by(lambda: reduced(surface.mesh, task.vertices, options.reduce)))
     else:
         reconstruct = method.load("reconstruct")
