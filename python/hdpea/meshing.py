@@ -24,7 +24,7 @@ DISK_RADIUS = 1.8
 """Radius of the disks in mean distances of the particles in R^d."""
 
 HOLES_FILLED = 4.0
-"""Size of the largest hole that is filled unasked, in spacings of the vertices in R^3."""
+"""Size of the largest hole that is filled unasked, in spacings of the particles in R^3."""
 
 
 @dataclass(frozen=True)
@@ -37,6 +37,8 @@ class Mesh:
         (v, 3) float64.
     faces
         (f, 3) int64, counter-clockwise seen from outside; edge- and vertex-manifold.
+    coordinates
+        (v, d) float64: where the vertices are in the embedding; a fit to the points does not move them there.
     statistics
         What became of the candidate triangles and of the holes, by name.
     choices
@@ -45,12 +47,17 @@ class Mesh:
 
     vertices_in_unit: NDArray[np.float64]
     faces: NDArray[np.int64]
+    coordinates: NDArray[np.float64]
     statistics: dict[str, int | float] = field(default_factory=dict)
     choices: tuple[Choice, ...] = ()
 
 
 def extract_mesh(
-    particles: Particles, bases: NDArray[np.float64], surface: Surface, options: MeshingOptions | None = None
+    particles: Particles,
+    bases: NDArray[np.float64],
+    surface: Surface,
+    options: MeshingOptions | None = None,
+    vertices: int | None = None,
 ) -> Mesh:
     """Join particles to a mesh.
 
@@ -60,6 +67,8 @@ def extract_mesh(
         (n, 2, d) tangent bases of the cloud.
     surface
         Where the normals come from.
+    vertices
+        Of the mesh to come, if it is to be simplified: pieces that will be too small there are dropped.
 
     Raises
     ------
@@ -75,21 +84,23 @@ def extract_mesh(
         smallest = float(radii.min()) * surface.frame.diagonal
         disks = Choice("disk_radius", smallest, "world units under the metric", why)
         limits = _core.ExtractionOptions()
-        limits.min_component_faces = options.min_component
+        per_vertex = len(particles.coordinates) / (vertices or len(particles.coordinates))
+        limits.min_component_faces = round(options.min_component * max(per_vertex, 1))
         extracted = _core.extract_manifold(particles.coordinates, normals, radii, on_points, limits)
         if len(extracted.faces) == 0:
             raise CannotReconstruct(
                 "No triangle holds on these points.", "They may be too few or too noisy; try fewer vertices."
             )
-        vertices = np.ascontiguousarray(particles.coordinates[extracted.sources, :3])
-        mesh = _fill_holes(vertices, extracted, surface.frame, options)
+        coordinates = particles.coordinates[extracted.sources]
+        mesh = _fill_holes(coordinates, extracted, surface.frame, options)
         refused = {"refused_uncovered": len(candidates.triangles) - len(on_points.triangles)}
         return replace(mesh, statistics=refused | mesh.statistics, choices=(disks, *mesh.choices))
 
 
 def _fill_holes(
-    vertices: NDArray[np.float64], extracted: _core.ExtractedMesh, frame: UnitFrame, options: MeshingOptions
+    coordinates: NDArray[np.float64], extracted: _core.ExtractedMesh, frame: UnitFrame, options: MeshingOptions
 ) -> Mesh:
+    vertices = np.ascontiguousarray(coordinates[:, :3])
     choices: tuple[Choice, ...] = ()
     if options.watertight:
         size = inf
@@ -97,7 +108,7 @@ def _fill_holes(
         size = frame.length_to_unit(options.fill_holes)
     else:
         size = HOLES_FILLED * float(np.sqrt(mesh_area(vertices, extracted.faces) / len(vertices)))
-        why = f"{HOLES_FILLED:g} spacings of the vertices"
+        why = f"{HOLES_FILLED:g} spacings of the particles"
         choices = (Choice("fill_holes", size * frame.diagonal, "world units", why),)
     filled = _core.fill_holes(vertices, extracted.faces, size)
     statistics: dict[str, int | float] = {
@@ -105,4 +116,5 @@ def _fill_holes(
     }
     statistics["holes_filled"] = filled.filled
     statistics["holes_left"] = filled.left
-    return Mesh(filled.vertices, filled.faces, statistics, choices)
+    centres = _core.nearest_neighbors(vertices, filled.vertices[len(vertices) :], 1)[:, 0]
+    return Mesh(filled.vertices, filled.faces, np.vstack([coordinates, coordinates[centres]]), statistics, choices)

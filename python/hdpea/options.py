@@ -18,6 +18,9 @@ from hdpea.position import Position
 POINTS_PER_VERTEX = 8
 """How many points share a vertex unless a number of vertices or faces is asked for."""
 
+ENOUGH_PARTICLES, ENOUGH_PER_VERTEX = 20_000, 2
+"""As many particles show any surface, or so many for each vertex of its mesh: more points do not make them more."""
+
 
 def option(default: Any, help: str, **metadata: Any) -> Any:
     """Return a dataclass field that carries its help text and what is legal: ``choices``, ``minimum``, ``maximum``."""
@@ -56,7 +59,7 @@ class NormalOptions(Checked):
     )
     normal_neighbors: int | None = option(
         None,
-        "nearest points whose plane gives an estimated normal; default: two for each point per vertex, 16 to 40; "
+        "nearest points whose plane gives an estimated normal; default: two for each point per particle, 16 to 40; "
         "to 80 if the points are noisy",
         minimum=3,
     )
@@ -135,6 +138,12 @@ class EmbeddingOptions(Checked):
 class ParticleOptions(Checked):
     """How the vertices are spread (``hdpea.particles``)."""
 
+    particles: int | None = option(
+        None,
+        "particles to spread; a mesh of fewer vertices is simplified from one of these; default: one for every "
+        f"{POINTS_PER_VERTEX} points, at most {ENOUGH_PARTICLES:,} or {ENOUGH_PER_VERTEX} for each vertex",
+        minimum=4,
+    )
     iterations: int = option(100, "steps of the particles' energy descent", minimum=0)
     seed: int = option(0, "seed of everything random; the same seed gives the same bytes", minimum=0)
 
@@ -148,7 +157,7 @@ class MeshingOptions(Checked):
     )
     faces: int | None = option(None, "faces wanted, instead of --vertices", minimum=4)
     fill_holes: Length | None = option(
-        None, "fill holes up to this size across, as 0.02 or 1%; default: 4 times the vertex spacing; 0: none"
+        None, "fill holes up to this size across, as 0.02 or 1%; default: 4 times the spacing of the particles; 0: none"
     )
     watertight: bool = option(False, "close every hole, whatever its size")
     min_component: int = option(16, "drop connected pieces of fewer faces than this; the largest stays", minimum=0)
@@ -184,3 +193,14 @@ class Options(Checked):
     meshing: MeshingOptions = MeshingOptions()
     refinement: RefinementOptions = RefinementOptions()
     threads: int = option(0, "threads to use; 0: all cores (the result is the same for any number)", minimum=0)
+
+    def particles_of(self, points: int) -> int:
+        """Return how many particles to spread on so many points: at least one for each vertex.
+
+        A mesh of few vertices is not made of few particles, which cannot show parts thinner than they are apart: it
+        is simplified from a mesh of more.
+        """
+        vertices = self.meshing.vertices_of(points)
+        enough = max(ENOUGH_PARTICLES, ENOUGH_PER_VERTEX * vertices)
+        shown = min(points // POINTS_PER_VERTEX, enough) if self.particles.particles is None else self.particles.particles
+        return max(vertices, shown)

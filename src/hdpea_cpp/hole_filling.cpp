@@ -24,6 +24,9 @@ using Loop = std::vector<Index>;
 // A hole of so few edges may fold back, unless its patch is a good part of the whole piece: that is its border.
 constexpr std::size_t kFewEdges = 8;
 constexpr double kGoodPart = 0.25;
+// Where a Delaunay triangulation holds no patch, CGAL tries all triangulations, in time that grows with the cube of the
+// edges: a second for so many, hours for a ragged border of thousands.
+constexpr std::size_t kEdgesForAllPatches = 500;
 // A patch folds back where it turns by more than 135 degrees: the missing half of a thin pin turns by 120.
 constexpr double kFoldedCosine = -0.7;
 
@@ -89,8 +92,8 @@ class HoleFiller {
     // No patch is smaller than the loop's vector area, so large borders need not be triangulated at all.
     if (4 * vector_area(loop) > max_size * perimeter) return false;
     const std::vector<PatchFace> patch = triangulated(loop);
-    if (std::isfinite(max_size) && (4 * area(loop, patch) > max_size * perimeter || folds_back(loop, patch)))
-      return false;
+    const bool too_large = patch.empty() || 4 * area(loop, patch) > max_size * perimeter || folds_back(loop, patch);
+    if (std::isfinite(max_size) && too_large) return false;
     if (!fits(loop, patch)) {
       add_fan(loop);
     } else {
@@ -166,7 +169,9 @@ class HoleFiller {
       beyond.push_back(point(opposite_.at(directed_key(loop[(i + 1) % loop.size()], loop[i]))));
     }
     std::vector<PatchFace> patch;
-    CGAL::Polygon_mesh_processing::triangulate_hole_polyline(polyline, beyond, std::back_inserter(patch));
+    CGAL::Polygon_mesh_processing::triangulate_hole_polyline(
+        polyline, beyond, std::back_inserter(patch),
+        CGAL::parameters::do_not_use_cubic_algorithm(loop.size() > kEdgesForAllPatches));
     orient(patch);
     return patch;
   }

@@ -19,7 +19,8 @@ struct FilledMesh {
 ///
 /// Each loop is triangulated by CGAL (least dihedral angles, then least area; Liepa 2003). Where such a patch
 /// would use an edge or a face that the mesh has already, as a hole at a pinched place does, a fan around
-/// the loop's centre takes its place: so the result is edge- and vertex-manifold and oriented, always.
+/// the loop's centre takes its place: so the result is edge- and vertex-manifold and oriented, always. A loop of
+/// more than 500 edges for which CGAL finds no patch quickly stays open, or gets a fan if everything is to be filled.
 ///
 /// @param vertices  (v, 3)
 /// @param faces     (f, 3) edge- and vertex-manifold, oriented

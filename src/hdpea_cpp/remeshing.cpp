@@ -1,13 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hdpea_cpp/remeshing.hpp"
 
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/detect_features.h>
 #include <CGAL/Polygon_mesh_processing/orient_polygon_soup.h>
 #include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
 #include <CGAL/Polygon_mesh_processing/remesh.h>
 #include <CGAL/Polygon_mesh_processing/shape_predicates.h>
-#include <CGAL/Surface_mesh.h>
 #include <CGAL/boost/graph/Euler_operations.h>
 
 #include <algorithm>
@@ -17,14 +15,14 @@
 #include <utility>
 #include <vector>
 
+#include "hdpea_cpp/cgal_mesh.hpp"
 #include "hdpea_cpp/errors.hpp"
 
 namespace hdpea {
 namespace {
 
 namespace pmp = CGAL::Polygon_mesh_processing;
-using Point = CGAL::Exact_predicates_inexact_constructions_kernel::Point_3;
-using SurfaceMesh = CGAL::Surface_mesh<Point>;
+using Point = Kernel::Point_3;
 
 /// Of the edge length that is wanted: the ends of a shorter edge are told apart by nothing but rounding.
 constexpr double kNoLength = 1e-9;
@@ -89,20 +87,6 @@ void unmark_degenerate_faces(const SurfaceMesh& mesh, SurfaceMesh::Property_map<
     if (!pmp::is_degenerate_triangle_face(f, mesh)) continue;
     for (const auto h : mesh.halfedges_around_face(mesh.halfedge(f))) sharp[mesh.edge(h)] = false;
   }
-}
-
-TriangleMesh from_cgal(SurfaceMesh& mesh) {
-  mesh.collect_garbage();
-  TriangleMesh result{Points(mesh.number_of_vertices(), 3), Faces(mesh.number_of_faces(), 3)};
-  for (const auto v : mesh.vertices()) {
-    const Point& point = mesh.point(v);
-    result.vertices.row(v.idx()) << point.x(), point.y(), point.z();
-  }
-  for (const auto f : mesh.faces()) {
-    int corner = 0;
-    for (const auto v : mesh.vertices_around_face(mesh.halfedge(f))) result.faces(f.idx(), corner++) = v.idx();
-  }
-  return result;
 }
 
 }  // namespace

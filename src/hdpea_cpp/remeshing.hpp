@@ -12,12 +12,6 @@ struct RemeshingOptions {
   Index iterations = 5;         ///< rounds of splits, collapses, flips and relaxation
 };
 
-/// A triangle mesh.
-struct TriangleMesh {
-  Points vertices;  ///< (n, 3)
-  Faces faces;      ///< (f, 3)
-};
-
 /// Covers the same surface with near-isotropic triangles, by CGAL (Botsch & Kobbelt 2004).
 ///
 /// Sharp edges and borders stay where they are, everything else is relaxed and projected back on the given surface.

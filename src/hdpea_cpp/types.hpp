@@ -25,6 +25,12 @@ using CoordinatesRef = Eigen::Ref<const Coordinates>;
 using FacesRef = Eigen::Ref<const Faces>;
 using NeighborsRef = Eigen::Ref<const Neighbors>;
 
+/// A triangle mesh.
+struct TriangleMesh {
+  Points vertices;  ///< (v, 3)
+  Faces faces;      ///< (f, 3)
+};
+
 /// Called with the fraction done, in [0, 1]; returning false cancels (throws Cancelled).
 using Progress = std::function<bool(double)>;
 

@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "hdpea_cpp/errors.hpp"
 #include "hdpea_cpp/mesh_check.hpp"
@@ -130,6 +132,30 @@ TEST(HoleFilling, TakesAFanWhereAPatchWouldUseAnEdgeTwice) {
   const FilledMesh filled = fill_holes(tetrahedron.vertices, tetrahedron.faces.topRows(2), kEverything);
   EXPECT_TRUE(sound(filled));
   EXPECT_TRUE(check_mesh(filled.vertices, filled.faces).closed());
+}
+
+/// A ribbon along a trefoil knot: no Delaunay triangulation holds a patch of either of its borders.
+shapes::Mesh knotted_ribbon(Index sections) {
+  shapes::Mesh mesh{Points(2 * sections, 3), Faces(2 * sections, 3)};
+  for (Index i = 0; i < sections; ++i) {
+    const double t = 2 * std::numbers::pi * double(i) / double(sections);
+    const Eigen::RowVector3d middle(std::sin(t) + 2 * std::sin(2 * t), std::cos(t) - 2 * std::cos(2 * t),
+                                    -std::sin(3 * t));
+    mesh.vertices.row(2 * i) = middle;
+    mesh.vertices.row(2 * i + 1) = middle + Eigen::RowVector3d(0, 0, 0.1);
+    const Index next = 2 * ((i + 1) % sections);
+    mesh.faces.row(2 * i) << 2 * i, next, next + 1;
+    mesh.faces.row(2 * i + 1) << 2 * i, next + 1, 2 * i + 1;
+  }
+  return mesh;
+}
+
+TEST(HoleFilling, DoesNotSearchAllPatchesOfALongLoop) {
+  const shapes::Mesh ribbon = knotted_ribbon(600);  // the search would find a patch, and for more sections take minutes
+  EXPECT_EQ(fill_holes(ribbon.vertices, ribbon.faces, 100).filled, 0);
+  const FilledMesh closed = fill_holes(ribbon.vertices, ribbon.faces, kEverything);
+  EXPECT_TRUE(sound(closed));
+  EXPECT_EQ(closed.left, 0);
 }
 
 TEST(HoleFilling, RefusesAMeshThatIsNotManifold) {
