@@ -200,7 +200,6 @@ class Options(Checked):
         A mesh of few vertices is not made of few particles, which cannot show parts thinner than they are apart: it
         is simplified from a mesh of more.
         """
-        vertices = self.meshing.vertices_of(points)
-        enough = max(ENOUGH_PARTICLES, ENOUGH_PER_VERTEX * vertices)
-        shown = min(points // POINTS_PER_VERTEX, enough) if self.particles.particles is None else self.particles.particles
-        return max(vertices, shown)
+        vertices, given = self.meshing.vertices_of(points), self.particles.particles
+        shown = min(points // POINTS_PER_VERTEX, max(ENOUGH_PARTICLES, ENOUGH_PER_VERTEX * vertices))
+        return max(vertices, shown if given is None else given)

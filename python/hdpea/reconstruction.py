@@ -187,9 +187,10 @@ def _particles_wanted(report: Report, points: int) -> int:
     options = report.options
     vertices, particles = options.meshing.vertices_of(points), options.particles_of(points)
     if particles > points:
+        what = "vertices" if particles == vertices else "particles"
         raise UsageError(
-            f"{particles} vertices were asked for, but there are {points} distinct points.",
-            "Ask for at most half as many vertices as there are points.",
+            f"{particles} {what} were asked for, but there are {points} distinct points.",
+            f"Ask for at most half as many {what} as there are points.",
         )
     if options.meshing.vertices is None and options.meshing.faces is None:
         report.choices.append(Choice("vertices", vertices, "", f"one for every {POINTS_PER_VERTEX} points"))

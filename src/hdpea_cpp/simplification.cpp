@@ -178,8 +178,9 @@ SimplifiedMesh simplify_mesh(const PointsRef& vertices, const CoordinatesRef& co
   SurfaceMesh mesh = to_cgal(vertices, faces);
   std::vector<Part> parts = parts_of(mesh, vertices, coordinates, faces, options.border);
   const LeastLoss loss(parts, options.evenness);
-  sms::edge_collapse(mesh, WithinBudget(budget, mesh, progress),
-                     CGAL::parameters::get_cost(loss).get_placement(loss).filter(sms::Bounded_normal_change_filter<>()));
+  sms::edge_collapse(
+      mesh, WithinBudget(budget, mesh, progress),
+      CGAL::parameters::get_cost(loss).get_placement(loss).filter(sms::Bounded_normal_change_filter<>()));
   Coordinates centroids(mesh.number_of_vertices(), coordinates.cols());
   Index row = 0;
   for (const Vertex v : mesh.vertices()) centroids.row(row++) = parts[v.idx()].centroid.transpose();

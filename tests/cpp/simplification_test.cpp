@@ -108,8 +108,9 @@ TEST(Simplification, RefusesBrokenInput) {
 
 TEST(Simplification, CanBeCancelled) {
   const auto torus = shapes::torus(60, 30);
-  EXPECT_THROW(simplify_mesh(torus.vertices, torus.vertices, torus.faces, {300, kAny}, {}, [](double) { return false; }),
-               Cancelled);
+  EXPECT_THROW(
+      simplify_mesh(torus.vertices, torus.vertices, torus.faces, {300, kAny}, {}, [](double) { return false; }),
+      Cancelled);
 }
 
 }  // namespace

@@ -9,7 +9,7 @@ import pytest
 from made import cloud_of, options
 
 from hdpea import Reconstruction, _core, reconstruct
-from hdpea.errors import Interrupted
+from hdpea.errors import Interrupted, UsageError
 from hdpea.options import MeshingOptions, Options, ParticleOptions
 
 
@@ -69,7 +69,13 @@ def test_a_number_of_faces_is_met() -> None:
 
 @pytest.mark.parametrize(
     ("points", "vertices", "particles"),
-    [(40_000, None, 5_000), (40_000, 1_500, 5_000), (40_000, 6_000, 6_000), (10**6, 100, 20_000), (10**6, 35_000, 70_000)],
+    [
+        (40_000, None, 5_000),
+        (40_000, 1_500, 5_000),
+        (40_000, 6_000, 6_000),
+        (10**6, 100, 20_000),
+        (10**6, 35_000, 70_000),
+    ],
 )
 def test_particles_are_as_many_as_the_points_can_show(points: int, vertices: int | None, particles: int) -> None:
     wanted = Options(meshing=MeshingOptions(vertices=vertices))
@@ -81,6 +87,12 @@ def test_particles_that_are_given_are_at_least_the_vertices() -> None:
     assert given.particles_of(40_000) == 800
     fewer = Options(meshing=MeshingOptions(vertices=500), particles=ParticleOptions(particles=100))
     assert fewer.particles_of(40_000) == 500
+
+
+def test_more_particles_than_points_are_refused() -> None:
+    wanted = Options(meshing=MeshingOptions(vertices=100), particles=ParticleOptions(particles=301))
+    with pytest.raises(UsageError, match="301 particles were asked for, but there are 300 distinct points"):
+        reconstruct(*cloud_of("sphere", 300), wanted)
 
 
 def test_the_report_says_so() -> None:
