@@ -17,6 +17,7 @@ import click
 import numpy as np
 from means_table import print_means
 from numpy.typing import NDArray
+from side_by_side import draw_side_by_side
 from val_table import Sampled, load_metrics, meshes_of
 
 from hdpea import _core
@@ -25,7 +26,6 @@ from hdpea.frame import UnitFrame
 from hdpea.meshing import extract_mesh
 from hdpea.options import EmbeddingOptions
 from hdpea.particles import spread_particles
-from hdpea.picture import draw_mesh
 from hdpea.refinement import refine_mesh
 from hdpea.surface import Surface
 from hdpea.tangents import TANGENT_NEIGHBORS, tangent_bases
@@ -60,7 +60,7 @@ PLANES: dict[str, Callable[[Array, Surface], Array]] = {
 @click.option("--meshes", help="only these, by name: bull,trex")
 @click.option("--vertices", default=5180, show_default=True)
 @click.option("--embedding", default=EmbeddingOptions().embedding, show_default=True)
-@click.option("--picture", type=click.Path(path_type=Path), help="folder for a picture of each mesh")
+@click.option("--picture", type=click.Path(path_type=Path), help="folder for pictures: rows from left to right")
 def main(
     *, folder: Path, baselines: Path, meshes: str | None, vertices: int, embedding: str, picture: Path | None
 ) -> None:
@@ -73,7 +73,8 @@ def main(
         surface = Surface.of(frame, frame.to_unit(sampled.points), sampled.normals)
         options = EmbeddingOptions(embedding=embedding)
         coordinates = embed_surface(surface, vertices, options).coordinates
-        for number, (name, planes) in enumerate(PLANES.items()):
+        meshes = []
+        for name, planes in PLANES.items():
             bases = planes(coordinates, surface)
             particles = spread_particles(coordinates, bases, surface.neighbors, vertices)
             mesh = refine_mesh(extract_mesh(particles, bases, surface), surface)
@@ -81,8 +82,9 @@ def main(
             found = metrics.evaluate(in_world, mesh.faces, sampled.truth, sampled.seed)
             found["T3"] = mesh.statistics["t3_kept"] / len(mesh.faces)
             scores.setdefault((name,), []).append([found[column] for column in COLUMNS])
-            if picture:
-                draw_mesh(picture / f"{path.stem}_{number}.png", in_world, mesh.faces)
+            meshes.append((in_world, mesh.faces))
+        if picture:
+            draw_side_by_side(picture / f"{path.stem}.png", meshes)
         click.echo(path.stem, err=True)
     print_means(["tangent plane"], COLUMNS, scores)
 

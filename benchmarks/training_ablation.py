@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What the network is best trained for: each loss with the same number of steps, judged by reconstructions.
 
-    python benchmarks/training_ablation.py TRAINING VALIDATION OUT [--steps 1500] [--stem]
+    python benchmarks/training_ablation.py TRAINING VALIDATION OUT [--steps 1500] [--stem] [--picture DIR]
 
 TRAINING and VALIDATION are folders that `hdpea dataset build` made. Each loss trains a network of its own in a folder
 of OUT, so a run that was stopped goes on where it was; then the clouds of VALIDATION are reconstructed from what each
@@ -14,6 +14,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import click
+from side_by_side import draw_side_by_side
 
 from hdpea.dataset.loading import Dataset
 from hdpea.network.options import CONFIGURATIONS
@@ -21,7 +22,7 @@ from hdpea.network.settling import ROUNDS
 from hdpea.network.transformer import PointTransformer
 from hdpea.training.loop import train
 from hdpea.training.options import LOSSES, PRESETS, LossOptions
-from hdpea.training.validation import validate
+from hdpea.training.validation import mesh_of_sample, validate
 
 COLUMNS = {"t3": "T3", "g": "G"}
 ROUNDS_AFTER = {"alone": 0, "settled": ROUNDS}
@@ -35,7 +36,10 @@ ROUNDS_AFTER = {"alone": 0, "settled": ROUNDS}
 @click.option("--steps", default=1500, show_default=True)
 @click.option("--clouds", default=5, show_default=True, help="of VALIDATION to judge by, spread over it")
 @click.option("--stem", is_flag=True, help="compare ways to see curvature instead of losses")
-def main(*, training: Path, validation: Path, out: Path, steps: int, clouds: int, stem: bool) -> None:
+@click.option("--picture", type=click.Path(path_type=Path), help="folder for pictures, alone: rows from left to right")
+def main(
+    *, training: Path, validation: Path, out: Path, steps: int, clouds: int, stem: bool, picture: Path | None
+) -> None:
     """Train once for each row, and reconstruct the clouds of VALIDATION."""
     compact, preset = CONFIGURATIONS["compact"], replace(PRESETS["cpu"], steps=steps)
     if stem:
@@ -53,6 +57,7 @@ def main(*, training: Path, validation: Path, out: Path, steps: int, clouds: int
     click.echo(f"{steps} steps each on {len(samples)} clouds; means over {', '.join(names)}\n")
     heads = [f"{head}, {after}" for after in ROUNDS_AFTER for head in COLUMNS.values()]
     click.echo("| trained with | " + " | ".join(heads) + " |\n" + "|---" * (1 + len(heads)) + "|")
+    networks = []
     for name, (network, options) in rows.items():
         if options is None:
             trained = PointTransformer(network)
@@ -60,12 +65,18 @@ def main(*, training: Path, validation: Path, out: Path, steps: int, clouds: int
             folder = out / name.replace(" ", "_")
             folder.mkdir(parents=True, exist_ok=True)
             trained = train(samples, None, folder, network, options).averaged_network()
+        networks.append(trained)
         cells = []
         for rounds in ROUNDS_AFTER.values():
             read = ((judged.read(each), judged.spacing(each)) for each in names)
             scores = validate(trained, read, preset.validation_vertices, rounds)
             cells += [f"{scores[column]:.3f}" for column in COLUMNS]
         click.echo(f"| {name} | " + " | ".join(cells) + " |")
+    if picture:
+        for cloud in names:
+            sample, spacing = judged.read(cloud), judged.spacing(cloud)
+            made = (mesh_of_sample(each, sample, spacing, preset.validation_vertices, rounds=0) for each in networks)
+            draw_side_by_side(picture / f"{cloud}.png", [(mesh.vertices_in_unit, mesh.faces) for mesh in made])
 
 
 if __name__ == "__main__":

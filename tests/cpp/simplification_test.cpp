@@ -66,6 +66,13 @@ TEST(Simplification, KeepsTheBorderInPlace) {
   EXPECT_EQ(check_mesh(square.vertices, square.faces).boundary_loops, 1);
 }
 
+TEST(Simplification, GivesTheCentroidsOfTheParts) {
+  const SimplifiedMesh square = simplified(shapes::grid(20, 20), {9, kAny});
+  // Corners stay where they are, but stand for more than themselves.
+  EXPECT_NEAR(square.vertices.leftCols<2>().minCoeff(), 0, 1e-3);
+  EXPECT_GT(square.coordinates.leftCols<2>().minCoeff(), 0.05);
+}
+
 TEST(Simplification, KeepsACrease) {
   auto roof = shapes::grid(20, 20);
   roof.vertices.col(2) = -(roof.vertices.col(0).array() - 0.5).abs();

@@ -50,11 +50,8 @@ def validate(
 
 
 def _scores(network: PointTransformer, sample: Sample, spacing: float, vertices: int, rounds: int) -> dict[str, float]:
-    points, normals = np.asarray(sample.points, np.float64), np.asarray(sample.normals, np.float64)
-    surface = Surface.of(UnitFrame(np.zeros(3), 1.0), points, normals / np.linalg.norm(normals, axis=1, keepdims=True))
     try:
-        psi = predict_psi(network, points, surface.normals, surface.neighbors, spacing, rounds=rounds)
-        mesh = mesh_of_embedding(surface, psi, vertices)
+        mesh = mesh_of_sample(network, sample, spacing, vertices, rounds)
     except CannotReconstruct:
         return {"t3": 0.0, "g": 0.0, "boundary": float("nan")}
     check = _core.check_mesh(mesh.vertices_in_unit, mesh.faces)
@@ -64,6 +61,16 @@ def _scores(network: PointTransformer, sample: Sample, spacing: float, vertices:
         "g": float(metric_quality(mesh, sample).mean()),
         "boundary": float(check.boundary_edges),
     }
+
+
+def mesh_of_sample(
+    network: PointTransformer, sample: Sample, spacing: float, vertices: int, rounds: int = ROUNDS
+) -> Mesh:
+    """Return the mesh of so many `vertices` that the network and so many `rounds` of the solver make of a sample."""
+    points, normals = np.asarray(sample.points, np.float64), np.asarray(sample.normals, np.float64)
+    surface = Surface.of(UnitFrame(np.zeros(3), 1.0), points, normals / np.linalg.norm(normals, axis=1, keepdims=True))
+    psi = predict_psi(network, points, surface.normals, surface.neighbors, spacing, rounds=rounds)
+    return mesh_of_embedding(surface, psi, vertices)
 
 
 def mesh_of_embedding(surface: Surface, psi: NDArray[np.float64], vertices: int) -> Mesh:
