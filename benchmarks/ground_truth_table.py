@@ -67,10 +67,11 @@ def scores(
         Options(meshing=MeshingOptions(vertices=vertices), refinement=RefinementOptions(refine=False)),
         embedder=oracle_embedder(truth.V, truth.F, options),
     )
-    refined = refine_mesh(Mesh(surface.frame.to_unit(plain.vertices), plain.faces), surface)
+    vertices = surface.frame.to_unit(plain.vertices)
+    refined = refine_mesh(Mesh(vertices, plain.faces, vertices), surface)
     before = metrics.evaluate(plain.vertices, plain.faces, truth, sampled.seed)
     after = metrics.evaluate(surface.frame.to_world(refined.vertices_in_unit), plain.faces, truth, sampled.seed)
-    return plain.report.meshing["t3_kept"] / len(plain.faces), before["G"], after["CDs"]
+    return plain.report.meshing["t3_kept"] / plain.report.meshing["faces_joined"], before["G"], after["CDs"]
 
 
 def run_mesh(path: Path, baselines: Path, vertices: int) -> dict[str, Scores]:

@@ -114,7 +114,7 @@ def run_mesh(task: Task) -> Row:
     row: Row = {"mesh": name, "target": task.options.meshing.vertices, "peer": OURS, "status": "ok"}
     row |= metrics.evaluate(result.vertices, result.faces, truth, sampled.seed)
     row["manifold"] = int(_core.check_mesh(result.vertices, result.faces).manifold)
-    row["T3"] = result.report.meshing["t3_kept"] / len(result.faces)
+    row["T3"] = result.report.meshing["t3_kept"] / result.report.meshing["faces_joined"]
     return row | {"seconds": seconds}
 
 

@@ -40,7 +40,7 @@ class Mesh:
     coordinates
         (v, d) float64: where the vertices are in the embedding; a fit to the points does not move them there.
     statistics
-        What became of the candidate triangles and of the holes, by name.
+        What became of the candidate triangles and of the holes, by name; of the mesh before it was simplified.
     choices
         The lengths that were chosen automatically, in world units.
     """
@@ -57,7 +57,7 @@ def extract_mesh(
     bases: NDArray[np.float64],
     surface: Surface,
     options: MeshingOptions | None = None,
-    vertices: int | None = None,
+    left: float = 1.0,
 ) -> Mesh:
     """Join particles to a mesh.
 
@@ -67,8 +67,8 @@ def extract_mesh(
         (n, 2, d) tangent bases of the cloud.
     surface
         Where the normals come from.
-    vertices
-        Of the mesh to come, if it is to be simplified: pieces that will be too small there are dropped.
+    left
+        Share of the vertices that a simplification will leave: pieces that would have too few faces then are dropped.
 
     Raises
     ------
@@ -80,16 +80,15 @@ def extract_mesh(
         normals = np.ascontiguousarray(surface.normals[particles.nearest])
         candidates, radii = restricted_cells(particles.coordinates, bases[particles.nearest], DISK_RADIUS)
         on_points = covered(candidates, particles, surface)
-        why = f"{DISK_RADIUS:g} mean distances of the vertices in the embedding; more where they are sparse"
+        why = f"{DISK_RADIUS:g} mean distances of the particles in the embedding; more where they are sparse"
         smallest = float(radii.min()) * surface.frame.diagonal
         disks = Choice("disk_radius", smallest, "world units under the metric", why)
         limits = _core.ExtractionOptions()
-        per_vertex = len(particles.coordinates) / (vertices or len(particles.coordinates))
-        limits.min_component_faces = round(options.min_component * max(per_vertex, 1))
+        limits.min_component_faces = round(options.min_component / left)
         extracted = _core.extract_manifold(particles.coordinates, normals, radii, on_points, limits)
         if len(extracted.faces) == 0:
             raise CannotReconstruct(
-                "No triangle holds on these points.", "They may be too few or too noisy; try fewer vertices."
+                "No triangle holds on these points.", "They may be too few or too noisy; try fewer --particles."
             )
         coordinates = particles.coordinates[extracted.sources]
         mesh = _fill_holes(coordinates, extracted, surface.frame, options)
@@ -116,5 +115,6 @@ def _fill_holes(
     }
     statistics["holes_filled"] = filled.filled
     statistics["holes_left"] = filled.left
+    statistics["faces_joined"] = len(filled.faces)
     centres = _core.nearest_neighbors(vertices, filled.vertices[len(vertices) :], 1)[:, 0]
     return Mesh(filled.vertices, filled.faces, np.vstack([coordinates, coordinates[centres]]), statistics, choices)

@@ -118,10 +118,10 @@ class EmbeddingOptions(Checked):
     )
     curvature_radius: Length | None = option(
         None,
-        "direct: radius in which curvature is measured, as 0.02 or 1%; default: from vertex budget and sampling",
+        "direct: radius in which curvature is measured, as 0.02 or 1%; default: from the number of particles",
     )
     bending_length: Length | None = option(
-        None, "direct: length below which it does not bend, as 0.02 or 1%; default: from the vertex budget"
+        None, "direct: length below which it does not bend, as 0.02 or 1%; default: from the number of particles"
     )
     metric_scale: float = option(0.5, "direct: c of the metric s^2 = c |k|: larger stretches more", minimum=0)
     max_stretch: float = option(8.0, "direct: largest stretch of the metric in any direction", minimum=1)
@@ -136,11 +136,11 @@ class EmbeddingOptions(Checked):
 
 @dataclass(frozen=True)
 class ParticleOptions(Checked):
-    """How the vertices are spread (``hdpea.particles``)."""
+    """How particles are spread (``hdpea.particles``)."""
 
     particles: int | None = option(
         None,
-        "particles to spread; a mesh of fewer vertices is simplified from one of these; default: one for every "
+        "particles to spread; their mesh is simplified where fewer vertices are wanted; default: one for every "
         f"{POINTS_PER_VERTEX} points, at most {ENOUGH_PARTICLES:,} or {ENOUGH_PER_VERTEX} for each vertex",
         minimum=4,
     )
@@ -160,7 +160,12 @@ class MeshingOptions(Checked):
         None, "fill holes up to this size across, as 0.02 or 1%; default: 4 times the spacing of the particles; 0: none"
     )
     watertight: bool = option(False, "close every hole, whatever its size")
-    min_component: int = option(16, "drop connected pieces of fewer faces than this; the largest stays", minimum=0)
+    min_component: int = option(
+        16,
+        "drop connected pieces of fewer faces than this, or of as small a share of the mesh that is to be simplified; "
+        "the largest stays",
+        minimum=0,
+    )
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -194,12 +199,30 @@ class Options(Checked):
     refinement: RefinementOptions = RefinementOptions()
     threads: int = option(0, "threads to use; 0: all cores (the result is the same for any number)", minimum=0)
 
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        given, budget = self.particles.particles, self.meshing.vertices or self.meshing.faces
+        if given is not None and budget is not None and given < self.meshing.vertices_of(given):
+            raise UsageError(
+                f"{given} particles cannot make {self.meshing.vertices_of(given)} vertices.",
+                "Spread at least one particle for each vertex.",
+            )
+
+    def vertices_of(self, points: int) -> int:
+        """Return how many vertices to make of so many points."""
+        given = self.particles.particles
+        if given is not None and self.meshing.vertices is None and self.meshing.faces is None:
+            return given
+        return self.meshing.vertices_of(points)
+
     def particles_of(self, points: int) -> int:
         """Return how many particles to spread on so many points: at least one for each vertex.
 
         A mesh of few vertices is not made of few particles, which cannot show parts thinner than they are apart: it
         is simplified from a mesh of more.
         """
-        vertices, given = self.meshing.vertices_of(points), self.particles.particles
-        shown = min(points // POINTS_PER_VERTEX, max(ENOUGH_PARTICLES, ENOUGH_PER_VERTEX * vertices))
-        return max(vertices, shown if given is None else given)
+        if self.particles.particles is not None:
+            return self.particles.particles
+        vertices = self.meshing.vertices_of(points)
+        enough = max(ENOUGH_PARTICLES, ENOUGH_PER_VERTEX * vertices)
+        return max(vertices, min(points // POINTS_PER_VERTEX, enough))

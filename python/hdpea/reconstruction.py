@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hdpea import _core
+from hdpea.budget import Budget
 from hdpea.denoising import denoised
 from hdpea.embedding import Embedder, embed_surface
 from hdpea.errors import HdpeaError, UsageError, core_errors_translated
@@ -29,9 +30,6 @@ from hdpea.threads import limited_threads
 PHASES = ("normals", "denoising", "embedding", "particles", "meshing", "refinement", "simplification", "measuring")
 """The phases that ``progress`` hears of, in order; of denoising only if there is noise, or it is asked for, and of
 simplification, and another refinement after it, only if fewer vertices are wanted than particles are spread."""
-
-BUDGET_TOLERANCE = 0.0102
-"""Share of the vertices or faces asked for by which the mesh may miss them: 1 %, and 99 of 100 are within it."""
 
 ATTEMPTS = 3
 """How often the particles are counted anew where they make too few vertices."""
@@ -140,7 +138,7 @@ def _mesh_of(surface: Surface, report: Report, progress: ProgressCallback | None
     mesh = _mesh_of_particles(surface, report, progress, embedder)
     with report.clock.stage("refinement"):
         mesh = refine_mesh(mesh, surface, options.refinement, of_phase(progress, "refinement"))
-    if _budget_missed(mesh, options) < 1 - BUDGET_TOLERANCE:
+    if Budget.of(options.meshing).excess(mesh) > 0:
         with report.clock.stage("simplification"):
             mesh = simplify_mesh(mesh, options.meshing, of_phase(progress, "simplification"))
         with report.clock.stage("refinement"):
@@ -153,15 +151,15 @@ def _mesh_of(surface: Surface, report: Report, progress: ProgressCallback | None
 def _mesh_of_particles(
     surface: Surface, report: Report, progress: ProgressCallback | None, embedder: Embedder | None
 ) -> Mesh:
-    """Embed, spread and join; where that makes too few vertices, spread more particles and take the nearest."""
+    """Embed, spread and join; where that makes too few vertices, spread more particles."""
     options, points = report.options, len(surface.points_in_unit)
-    count = particles_wanted = _particles_wanted(report, points)
+    wanted = _particles_wanted(report, points)
     with report.clock.stage("embedding"):
-        embedded = embed_surface(surface, particles_wanted, options.embedding, progress, embedder)
-        bases = tangent_bases(embedded.coordinates, surface.normals, surface.neighbors, points / particles_wanted)
+        embedded = embed_surface(surface, wanted, options.embedding, progress, embedder)
+        bases = tangent_bases(embedded.coordinates, surface.normals, surface.neighbors, points / wanted)
     report.choices += embedded.choices
-    attempts = list[tuple[float, Mesh]]()
-    for _ in range(ATTEMPTS):
+    count, attempts = wanted, list[Mesh]()
+    while len(attempts) < ATTEMPTS:
         with report.clock.stage("particles"):
             particles = spread_particles(
                 embedded.coordinates,
@@ -173,38 +171,32 @@ def _mesh_of_particles(
             )
         with report.clock.stage("meshing"):
             tell(progress, "meshing", 0)
-            mesh = extract_mesh(particles, bases, surface, options.meshing, options.meshing.vertices_of(points))
+            left = min(options.vertices_of(points) / wanted, 1.0)
+            attempts.append(extract_mesh(particles, bases, surface, options.meshing, left))
             tell(progress, "meshing", 1)
-        missed = _budget_missed(mesh, options)
-        attempts.append((abs(missed - 1), mesh))
-        if missed <= 1 + BUDGET_TOLERANCE:
-            break
-        count = min(round(count * missed), points)
-    return min(attempts, key=lambda attempt: attempt[0])[1]
+        excess = Budget.of(options.meshing).excess(attempts[-1])
+        if excess >= 0:
+            return attempts[-1]
+        count = min(round(count / (1 + excess)), points)
+    return max(attempts, key=lambda mesh: len(mesh.vertices_in_unit))
 
 
 def _particles_wanted(report: Report, points: int) -> int:
     options = report.options
-    vertices, particles = options.meshing.vertices_of(points), options.particles_of(points)
+    vertices, particles = options.vertices_of(points), options.particles_of(points)
     if particles > points:
         what = "vertices" if particles == vertices else "particles"
         raise UsageError(
             f"{particles} {what} were asked for, but there are {points} distinct points.",
             f"Ask for at most half as many {what} as there are points.",
         )
-    if options.meshing.vertices is None and options.meshing.faces is None:
-        report.choices.append(Choice("vertices", vertices, "", f"one for every {POINTS_PER_VERTEX} points"))
-    elif particles > vertices and options.particles.particles is None:
-        why = f"what {points:,} points can show; the mesh is simplified from these"
-        report.choices.append(Choice("particles", particles, "", why))
+    if options.particles.particles is None:
+        if Budget.of(options.meshing).asked is None:
+            report.choices.append(Choice("vertices", vertices, "", f"one for every {POINTS_PER_VERTEX} points"))
+        elif particles > vertices:
+            why = f"what {points:,} points can show; the mesh is simplified from these"
+            report.choices.append(Choice("particles", particles, "", why))
     return particles
-
-
-def _budget_missed(mesh: Mesh, options: Options) -> float:
-    """Return what was asked for over what was achieved; 1 if nothing was asked for."""
-    if options.meshing.vertices is not None:
-        return options.meshing.vertices / len(mesh.vertices_in_unit)
-    return options.meshing.faces / len(mesh.faces) if options.meshing.faces is not None else 1.0
 
 
 def _measure(mesh: Mesh, surface: Surface, report: Report) -> None:
@@ -225,8 +217,8 @@ def _measure(mesh: Mesh, surface: Surface, report: Report) -> None:
     feet = _core.closest_surface_points(mesh.vertices_in_unit, mesh.faces, surface.points_in_unit)
     diagonal = surface.frame.diagonal
     report.distances = Distances.of(feet.distance * diagonal, surface.spacing * diagonal)
-    wanted = _budget_missed(mesh, report.options)
-    if abs(wanted - 1) > BUDGET_TOLERANCE:
-        report.missed.append(f"The budget was missed by {abs(1 / wanted - 1):.1%}.")
+    excess = Budget.of(report.options.meshing).excess(mesh)
+    if excess:
+        report.missed.append(f"The budget was missed by {abs(excess):.1%}.")
     if report.options.meshing.watertight and not check.closed:
         report.missed.append(f"The mesh is not watertight: {check.boundary_loops} boundary loops are left.")

@@ -15,9 +15,6 @@ from hdpea.errors import core_errors_translated
 from hdpea.meshing import Mesh
 from hdpea.options import MeshingOptions
 
-ANY_NUMBER = 2**62
-"""Vertices, or faces, where only the other is limited."""
-
 
 def simplify_mesh(mesh: Mesh, options: MeshingOptions, progress: Callable[[float], bool] | None = None) -> Mesh:
     """Return the mesh with edges collapsed until it has no more vertices, or faces, than are wanted.
@@ -25,7 +22,11 @@ def simplify_mesh(mesh: Mesh, options: MeshingOptions, progress: Callable[[float
     The least loss goes first: distance from the surface that was (Garland and Heckbert 1997), and evenness of the
     vertices in the embedding. The topology stays, so that a budget may be out of reach.
     """
-    budget = _core.MeshBudget(options.vertices or ANY_NUMBER, options.faces or ANY_NUMBER)
+    budget = _core.MeshBudget()
+    if options.vertices is not None:
+        budget.vertices = options.vertices
+    if options.faces is not None:
+        budget.faces = options.faces
     with core_errors_translated():
         small = _core.simplify_mesh(
             mesh.vertices_in_unit, mesh.coordinates, mesh.faces, budget, _core.SimplificationOptions(), progress

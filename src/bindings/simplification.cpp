@@ -6,9 +6,9 @@
 void register_simplification(nb::module_& module) {
   using hdpea::MeshBudget, hdpea::SimplificationOptions, hdpea::SimplifiedMesh;
   nb::class_<MeshBudget>(module, "MeshBudget", "No more vertices and no more faces than these.")
-      .def(nb::init<hdpea::Index, hdpea::Index>(), "vertices"_a, "faces"_a)
-      .def_ro("vertices", &MeshBudget::vertices)
-      .def_ro("faces", &MeshBudget::faces);
+      .def(nb::init<>())
+      .def_rw("vertices", &MeshBudget::vertices)
+      .def_rw("faces", &MeshBudget::faces);
   nb::class_<SimplificationOptions>(module, "SimplificationOptions", "What an edge collapse costs.")
       .def(nb::init<>())
       .def_rw("evenness", &SimplificationOptions::evenness)

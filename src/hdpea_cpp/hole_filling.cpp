@@ -92,8 +92,9 @@ class HoleFiller {
     // No patch is smaller than the loop's vector area, so large borders need not be triangulated at all.
     if (4 * vector_area(loop) > max_size * perimeter) return false;
     const std::vector<PatchFace> patch = triangulated(loop);
-    const bool too_large = patch.empty() || 4 * area(loop, patch) > max_size * perimeter || folds_back(loop, patch);
-    if (std::isfinite(max_size) && too_large) return false;
+    const bool not_searched = patch.empty() && loop.size() > kEdgesForAllPatches;
+    const bool too_large = 4 * area(loop, patch) > max_size * perimeter || folds_back(loop, patch);
+    if (std::isfinite(max_size) && (not_searched || too_large)) return false;
     if (!fits(loop, patch)) {
       add_fan(loop);
     } else {

@@ -14,6 +14,7 @@
 
 #include "hdpea_cpp/cgal_mesh.hpp"
 #include "hdpea_cpp/errors.hpp"
+#include "hdpea_cpp/mesh_check.hpp"
 
 namespace hdpea {
 namespace {
@@ -24,6 +25,8 @@ using Vertex = SurfaceMesh::Vertex_index;
 
 // Where planes leave a direction open, the middle of the edge is as good a place as any.
 constexpr double kPull = 1e-3;
+
+constexpr Index kCollapsesPerReport = 100;
 
 /// The part of the given surface that a vertex stands for.
 struct Part {
@@ -141,7 +144,10 @@ class WithinBudget {
   bool operator()(const Cost&, const Profile& edge, std::size_t, std::size_t) const {
     const Index left = excess(edge.surface_mesh());
     if (left <= 0) return true;
-    if (left % 100 == 0) report(*progress_, 1 - static_cast<double>(left) / static_cast<double>(first_));
+    if (left <= next_) {
+      report(*progress_, 1 - static_cast<double>(left) / static_cast<double>(first_));
+      next_ = left - kCollapsesPerReport;
+    }
     return false;
   }
 
@@ -154,6 +160,7 @@ class WithinBudget {
   MeshBudget budget_;
   const Progress* progress_;
   Index first_;
+  mutable Index next_ = first_;  // CGAL asks a const predicate
 };
 
 SurfaceMesh to_cgal(const PointsRef& vertices, const FacesRef& faces) {
@@ -161,8 +168,7 @@ SurfaceMesh to_cgal(const PointsRef& vertices, const FacesRef& faces) {
   for (Index v = 0; v < vertices.rows(); ++v) mesh.add_vertex(Point(vertices(v, 0), vertices(v, 1), vertices(v, 2)));
   const auto vertex = [](Index v) { return Vertex(static_cast<Vertex::size_type>(v)); };
   for (Index f = 0; f < faces.rows(); ++f) {
-    const auto face = mesh.add_face(vertex(faces(f, 0)), vertex(faces(f, 1)), vertex(faces(f, 2)));
-    require(face != SurfaceMesh::null_face(), "simplification needs a manifold, oriented mesh");
+    mesh.add_face(vertex(faces(f, 0)), vertex(faces(f, 1)), vertex(faces(f, 2)));
   }
   return mesh;
 }
@@ -172,19 +178,22 @@ SurfaceMesh to_cgal(const PointsRef& vertices, const FacesRef& faces) {
 SimplifiedMesh simplify_mesh(const PointsRef& vertices, const CoordinatesRef& coordinates, const FacesRef& faces,
                              const MeshBudget& budget, const SimplificationOptions& options, const Progress& progress) {
   require(coordinates.rows() == vertices.rows(), "vertices and coordinates must have one row per vertex");
-  require(faces.size() == 0 || (faces.minCoeff() >= 0 && faces.maxCoeff() < vertices.rows()),
-          "a face has a vertex that does not exist");
-  require(vertices.allFinite() && coordinates.allFinite(), "a coordinate is not finite");
+  require(coordinates.allFinite(), "a coordinate is not finite");
+  require(options.evenness >= 0 && options.border >= 0, "evenness and border must be 0 or more");
+  const MeshCheck check = check_mesh(vertices, faces);
+  require(check.manifold() && check.oriented(), "simplification needs a manifold, oriented mesh");
   SurfaceMesh mesh = to_cgal(vertices, faces);
   std::vector<Part> parts = parts_of(mesh, vertices, coordinates, faces, options.border);
   const LeastLoss loss(parts, options.evenness);
   sms::edge_collapse(
       mesh, WithinBudget(budget, mesh, progress),
       CGAL::parameters::get_cost(loss).get_placement(loss).filter(sms::Bounded_normal_change_filter<>()));
-  Coordinates centroids(mesh.number_of_vertices(), coordinates.cols());
-  Index row = 0;
-  for (const Vertex v : mesh.vertices()) centroids.row(row++) = parts[v.idx()].centroid.transpose();
+  // Vertices are numbered anew when the collapsed ones are thrown out: what belongs to them goes along.
+  const auto old = mesh.add_property_map<Vertex, Vertex>("v:old").first;
+  for (const Vertex v : mesh.vertices()) old[v] = v;
   TriangleMesh simplified = from_cgal(mesh);
+  Coordinates centroids(simplified.vertices.rows(), coordinates.cols());
+  for (const Vertex v : mesh.vertices()) centroids.row(v.idx()) = parts[old[v].idx()].centroid.transpose();
   report(progress, 1);
   return {std::move(simplified.vertices), std::move(centroids), std::move(simplified.faces)};
 }

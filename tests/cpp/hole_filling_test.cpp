@@ -134,6 +134,19 @@ TEST(HoleFilling, TakesAFanWhereAPatchWouldUseAnEdgeTwice) {
   EXPECT_TRUE(check_mesh(filled.vertices, filled.faces).closed());
 }
 
+TEST(HoleFilling, ClosesASlitWithoutWidth) {
+  // Two rows of the grid's vertices in one line: no triangle of theirs has an area, so there is no patch.
+  auto grid = shapes::grid(4, 4);
+  const Faces faces =
+      without(grid, [](const auto& p) { return p.y() > 0.5 && p.y() < 0.75 && p.x() > 0.25 && p.x() < 0.75; });
+  for (Index v = 0; v < grid.vertices.rows(); ++v) {
+    if (grid.vertices(v, 1) == 0.75) grid.vertices(v, 1) = 0.5;
+  }
+  const FilledMesh filled = fill_holes(grid.vertices, faces, 0.5);
+  EXPECT_EQ(filled.filled, 1);
+  EXPECT_TRUE(sound(filled));
+}
+
 /// A ribbon along a trefoil knot: no Delaunay triangulation holds a patch of either of its borders.
 shapes::Mesh knotted_ribbon(Index sections) {
   shapes::Mesh mesh{Points(2 * sections, 3), Faces(2 * sections, 3)};

@@ -141,16 +141,23 @@ def test_what_is_given_is_not_chosen() -> None:
     assert "normal_neighbors" not in {choice.name for choice in told}
 
 
-def test_of_attempts_that_all_miss_the_budget_the_nearest_counts(monkeypatch: pytest.MonkeyPatch) -> None:
-    counts = iter((150, 194, 170))
+@pytest.mark.parametrize(
+    ("counts", "made", "missed"),
+    [((150, 194, 170), 194, ["The budget was missed by 3.0%."]), ((194, 260), 200, []), ((203,), 200, [])],
+)
+def test_too_few_vertices_call_for_more_particles_and_too_many_are_collapsed(
+    counts: tuple[int, ...], made: int, missed: list[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    others = iter(counts)
 
     def spread_other_count(coordinates: Any, bases: Any, neighbors: Any, _: int, **options: Any) -> Particles:
-        return spread_particles(coordinates, bases, neighbors, next(counts), **options)
+        return spread_particles(coordinates, bases, neighbors, next(others), **options)
 
     monkeypatch.setattr(reconstruction, "spread_particles", spread_other_count)
-    made = reconstruct(*clouds.sphere(2000), Options(meshing=MeshingOptions(vertices=200)))
-    assert len(made.vertices) == 194
-    assert made.report.missed == ["The budget was missed by 3.0%."]
+    mesh = reconstruct(*clouds.sphere(1600), Options(meshing=MeshingOptions(vertices=200)))
+    assert len(mesh.vertices) == made
+    assert mesh.report.missed == missed
+    assert list(others) == []
 
 
 @pytest.mark.parametrize("budget", [MeshingOptions(vertices=301), MeshingOptions(faces=700)])

@@ -61,10 +61,21 @@ def test_a_cube_of_few_vertices_keeps_its_corners() -> None:
     assert distance.max() < 0.02 * np.ptp(points)
 
 
-def test_a_number_of_faces_is_met() -> None:
-    made = reconstruct(*cloud_of("torus"), options(None, faces=300))
-    assert len(made.faces) == 300
-    assert made.report.missed == []
+@pytest.mark.parametrize(("asked", "made"), [(300, 300), (51, 50)])
+def test_a_number_of_faces_is_met(asked: int, made: int) -> None:
+    mesh = reconstruct(*cloud_of("torus"), options(None, faces=asked))
+    assert len(mesh.faces) == made  # a closed mesh has an even number
+    assert mesh.report.missed == []
+
+
+def test_pieces_are_dropped_by_their_share_of_the_small_mesh() -> None:
+    points, normals = clouds.sphere(3000)
+    crumb, out = clouds.sphere(100)
+    both = np.vstack([points, [3, 0, 0] + 0.3 * crumb]), np.vstack([normals, out])
+    for vertices, pieces in (375, 2), (60, 1):
+        mesh = reconstruct(*both, options(vertices)).report.mesh
+        assert mesh is not None
+        assert mesh.components == pieces
 
 
 @pytest.mark.parametrize(
@@ -82,11 +93,17 @@ def test_particles_are_as_many_as_the_points_can_show(points: int, vertices: int
     assert wanted.particles_of(points) == particles
 
 
-def test_particles_that_are_given_are_at_least_the_vertices() -> None:
+def test_particles_that_are_given_are_taken() -> None:
     given = Options(meshing=MeshingOptions(vertices=500), particles=ParticleOptions(particles=800))
-    assert given.particles_of(40_000) == 800
-    fewer = Options(meshing=MeshingOptions(vertices=500), particles=ParticleOptions(particles=100))
-    assert fewer.particles_of(40_000) == 500
+    assert (given.vertices_of(40_000), given.particles_of(40_000)) == (500, 800)
+    alone = Options(particles=ParticleOptions(particles=800))
+    assert (alone.vertices_of(40_000), alone.particles_of(40_000)) == (800, 800)
+
+
+@pytest.mark.parametrize("budget", [MeshingOptions(vertices=500), MeshingOptions(faces=996)])
+def test_fewer_particles_than_vertices_are_refused(budget: MeshingOptions) -> None:
+    with pytest.raises(UsageError, match="400 particles cannot make 500 vertices"):
+        Options(meshing=budget, particles=ParticleOptions(particles=400))
 
 
 def test_more_particles_than_points_are_refused() -> None:
@@ -101,6 +118,15 @@ def test_the_report_says_so() -> None:
     assert "simplified" in told["particles"].why
 
 
-def test_it_can_be_interrupted() -> None:
+def test_it_can_be_interrupted_halfway() -> None:
+    told = []
+
+    def stop_halfway(phase: str, fraction: float) -> bool:
+        told.append((phase, fraction))
+        return phase != "simplification" or fraction < 0.5
+
     with pytest.raises(Interrupted):
-        reconstruct(*cloud_of("sphere"), options(100), lambda phase, _: phase != "simplification")
+        reconstruct(*cloud_of("sphere"), options(100), stop_halfway)
+    phase, fraction = told[-1]
+    assert phase == "simplification"
+    assert fraction < 1

@@ -23,14 +23,14 @@ Examples:
 @click.argument("output", metavar="OUT", type=click.Path(path_type=Path))
 @config_option
 @quiet_option
-@setting_options("normals", "embedding", "run", also=["vertices"])
+@setting_options("normals", "embedding", "run", also=["vertices", "particles"])
 @click.pass_context
 def command(ctx: click.Context, /, *, source: str, output: Path, quiet: bool, **values: Any) -> None:
     """Embed the point cloud IN into R^8, where distances are lengths under the curvature metric.
 
     OUT is NPZ (arrays points and normals of shape (n, 3), coordinates of shape (n, 8)) or PLY
     (embedding_0 to embedding_7 as properties of the points). IN is as for reconstruct. It shows
-    as much detail as a mesh of that many --vertices can.
+    as much detail as the particles that a mesh of that many --vertices is made of.
     """
     options = chosen_options(ctx, values)
     from hdpea.outputs import check_not_input, check_output

@@ -102,10 +102,12 @@ def embed_points(
     options = options or Options()
     with limited_threads(options.threads):
         cloud = cleaned(from_arrays(points, normals, sensors))
-        vertices = options.meshing.vertices_of(len(cloud.points))
-        per_vertex = len(cloud.points) / vertices
-        oriented = oriented_surface(cloud.points, cloud.normals, options.normals, per_vertex, progress, cloud.sensors())
+        particles = options.particles_of(len(cloud.points))
+        per_particle = len(cloud.points) / particles
+        oriented = oriented_surface(
+            cloud.points, cloud.normals, options.normals, per_particle, progress, cloud.sensors()
+        )
         surface = oriented.surface
-        embedded = embed_surface(surface, vertices, options.embedding, progress)
+        embedded = embed_surface(surface, particles, options.embedding, progress)
     choices = (*oriented.choices, *embedded.choices)
     return Embedding(cloud.points, surface.normals, embedded.coordinates, surface.frame, choices)

@@ -53,7 +53,9 @@ def embed_learned(
     if len(kept) < len(surface.points_in_unit):
         psi = carried_over(points, normals, neighbors, psi, surface.points_in_unit, surface.normals)
     choices = (
-        Choice("metric_spacing", spacing * surface.frame.diagonal, "world units", f"that of {round(shown):,} vertices"),
+        Choice(
+            "metric_spacing", spacing * surface.frame.diagonal, "world units", f"that of {round(shown):,} particles"
+        ),
     )
     truth = GroundTruthOptions()  # what networks are trained on, unless its options are changed
     metric = Metric(truth.metric_scale * spacing, truth.max_stretch)
