@@ -13,8 +13,11 @@ from PIL import Image
 
 from hdpea.picture import Camera, draw_mesh
 
-PANEL = (640, 640)
+PANEL = (320, 320)
 """Width and height of each, in pixels."""
+
+COLORS = 64
+"""Different ones in the picture: it is to be small."""
 
 
 def draw_side_by_side(path: Path, meshes: Sequence[tuple[NDArray[np.float64], NDArray[np.int64]]]) -> None:
@@ -28,4 +31,4 @@ def draw_side_by_side(path: Path, meshes: Sequence[tuple[NDArray[np.float64], ND
             with Image.open(panel) as drawn:
                 row.paste(drawn, (place * PANEL[0], 0))
     path.parent.mkdir(parents=True, exist_ok=True)
-    row.save(path, optimize=True)
+    row.quantize(COLORS).save(path, optimize=True)
