@@ -169,6 +169,9 @@ class HoleFiller {
       polyline.push_back(point(loop[i]));
       beyond.push_back(point(opposite_.at(directed_key(loop[(i + 1) % loop.size()], loop[i]))));
     }
+    // Closed here: CGAL would take a loop whose first and last vertex lie in one place for closed already.
+    polyline.push_back(polyline.front());
+    beyond.push_back(beyond.front());
     std::vector<PatchFace> patch;
     CGAL::Polygon_mesh_processing::triangulate_hole_polyline(
         polyline, beyond, std::back_inserter(patch),
