@@ -134,7 +134,7 @@ def _directions(
         roughness = roughness_of(points)
         enough = min(round(NEIGHBORS_PER_NOISE * roughness.noise), MOST_NEIGHBORS)
         count = max(ORIENTATION_NEIGHBORS, min(round(2 * points_per_vertex), NEIGHBORS), enough)
-        why = f"twice the points per vertex, from {ORIENTATION_NEIGHBORS} to {NEIGHBORS}"
+        why = f"twice the points per particle, from {ORIENTATION_NEIGHBORS} to {NEIGHBORS}"
         if count == enough:
             why = str(roughness)
         choices = (Choice("normal_neighbors", count, "points", why),)
