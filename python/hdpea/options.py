@@ -22,6 +22,10 @@ ENOUGH_PARTICLES, ENOUGH_PER_VERTEX = 20_000, 2
 """As many particles show any surface, or so many for each vertex of its mesh: more points do not make them more."""
 
 
+WORTH_SIMPLIFYING = 1.2
+"""From so many particles for each vertex on, their mesh simplified errs less; with fewer, G is lost for nothing."""
+
+
 def option(default: Any, help: str, **metadata: Any) -> Any:
     """Return a dataclass field that carries its help text and what is legal: ``choices``, ``minimum``, ``maximum``."""
     return field(default=default, metadata={"help": help, **metadata})
@@ -224,5 +228,5 @@ class Options(Checked):
         if self.particles.particles is not None:
             return self.particles.particles
         vertices = self.meshing.vertices_of(points)
-        enough = max(ENOUGH_PARTICLES, ENOUGH_PER_VERTEX * vertices)
-        return max(vertices, min(points // POINTS_PER_VERTEX, enough))
+        shown = min(points // POINTS_PER_VERTEX, max(ENOUGH_PARTICLES, ENOUGH_PER_VERTEX * vertices))
+        return shown if shown >= WORTH_SIMPLIFYING * vertices else vertices

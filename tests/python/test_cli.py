@@ -59,7 +59,7 @@ def test_the_report_knows_the_flags_and_the_stages(scan: str, tmp_path: Path) ->
         scan,
         str(tmp_path / "mesh.ply"),
         "--vertices",
-        "90",
+        "80",
         "--fill-holes",
         "2%",
         "--seed",
@@ -67,7 +67,7 @@ def test_the_report_knows_the_flags_and_the_stages(scan: str, tmp_path: Path) ->
     ]
     assert run([*arguments, "--report", str(tmp_path / "report.json")]) == 0
     report = json.loads((tmp_path / "report.json").read_text())
-    assert report["options"]["meshing"]["vertices"] == report["mesh"]["vertices"] == 90
+    assert report["options"]["meshing"]["vertices"] == report["mesh"]["vertices"] == 80
     assert report["options"]["meshing"]["fill_holes"] == "2%"
     assert report["options"]["particles"]["seed"] == 5
     assert report["counts"]["points"] == 800

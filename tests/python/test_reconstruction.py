@@ -91,7 +91,7 @@ def test_phases_come_in_order_and_any_of_them_can_stop_the_run() -> None:
         told.append((phase, fraction))
         return True
 
-    every = replace(options(60), denoising=DenoisingOptions(denoise="mls"))
+    every = replace(options(50), denoising=DenoisingOptions(denoise="mls"))
     reconstruct(points, normals, every, listen)
     assert tuple(dict.fromkeys(phase for phase, _ in told)) == PHASES
     assert all(0 <= fraction <= 1 for _, fraction in told)
