@@ -67,8 +67,8 @@ def scores(
         Options(meshing=MeshingOptions(vertices=vertices), refinement=RefinementOptions(refine=False)),
         embedder=oracle_embedder(truth.V, truth.F, options),
     )
-    vertices = surface.frame.to_unit(plain.vertices)
-    refined = refine_mesh(Mesh(vertices, plain.faces, vertices), surface)
+    in_unit = surface.frame.to_unit(plain.vertices)
+    refined = refine_mesh(Mesh(in_unit, plain.faces, in_unit), surface)
     before = metrics.evaluate(plain.vertices, plain.faces, truth, sampled.seed)
     after = metrics.evaluate(surface.frame.to_world(refined.vertices_in_unit), plain.faces, truth, sampled.seed)
     return plain.report.meshing["t3_kept"] / plain.report.meshing["faces_joined"], before["G"], after["CDs"]

@@ -73,7 +73,7 @@ def main(
         surface = Surface.of(frame, frame.to_unit(sampled.points), sampled.normals)
         options = EmbeddingOptions(embedding=embedding)
         coordinates = embed_surface(surface, vertices, options).coordinates
-        meshes = []
+        made = []
         for name, planes in PLANES.items():
             bases = planes(coordinates, surface)
             particles = spread_particles(coordinates, bases, surface.neighbors, vertices)
@@ -82,9 +82,9 @@ def main(
             found = metrics.evaluate(in_world, mesh.faces, sampled.truth, sampled.seed)
             found["T3"] = mesh.statistics["t3_kept"] / len(mesh.faces)
             scores.setdefault((name,), []).append([found[column] for column in COLUMNS])
-            meshes.append((in_world, mesh.faces))
+            made.append((in_world, mesh.faces))
         if picture:
-            draw_side_by_side(picture / f"{path.stem}.png", meshes)
+            draw_side_by_side(picture / f"{path.stem}.png", made)
         click.echo(path.stem, err=True)
     print_means(["tangent plane"], COLUMNS, scores)
 

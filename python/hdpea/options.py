@@ -21,7 +21,6 @@ POINTS_PER_VERTEX = 8
 ENOUGH_PARTICLES, ENOUGH_PER_VERTEX = 20_000, 2
 """As many particles show any surface, or so many for each vertex of its mesh: more points do not make them more."""
 
-
 WORTH_SIMPLIFYING = 1.2
 """From so many particles for each vertex on, their mesh simplified errs less; with fewer, G is lost for nothing."""
 
@@ -176,6 +175,11 @@ class MeshingOptions(Checked):
         if self.vertices is not None and self.faces is not None:
             raise UsageError("Vertices and faces exclude each other.", "Ask for one; the other follows from it.")
 
+    @property
+    def any_size(self) -> bool:
+        """Whether no number of vertices or faces is asked for."""
+        return self.vertices is None and self.faces is None
+
     def vertices_of(self, points: int) -> int:
         """Return how many vertices to make of so many points: a closed mesh has two faces for each."""
         if self.vertices is not None:
@@ -205,17 +209,16 @@ class Options(Checked):
 
     def __post_init__(self) -> None:
         super().__post_init__()
-        given, budget = self.particles.particles, self.meshing.vertices or self.meshing.faces
-        if given is not None and budget is not None and given < self.meshing.vertices_of(given):
+        given = self.particles.particles
+        if given is not None and given < (vertices := self.vertices_of(given)):
             raise UsageError(
-                f"{given} particles cannot make {self.meshing.vertices_of(given)} vertices.",
-                "Spread at least one particle for each vertex.",
+                f"{given} particles cannot make {vertices} vertices.", "Spread at least one particle for each vertex."
             )
 
     def vertices_of(self, points: int) -> int:
         """Return how many vertices to make of so many points."""
         given = self.particles.particles
-        if given is not None and self.meshing.vertices is None and self.meshing.faces is None:
+        if given is not None and self.meshing.any_size:
             return given
         return self.meshing.vertices_of(points)
 

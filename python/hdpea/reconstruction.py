@@ -158,6 +158,7 @@ def _mesh_of_particles(
         embedded = embed_surface(surface, wanted, options.embedding, progress, embedder)
         bases = tangent_bases(embedded.coordinates, surface.normals, surface.neighbors, points / wanted)
     report.choices += embedded.choices
+    left = options.vertices_of(points) / wanted
     count, attempts = wanted, list[Mesh]()
     while len(attempts) < ATTEMPTS:
         with report.clock.stage("particles"):
@@ -171,7 +172,6 @@ def _mesh_of_particles(
             )
         with report.clock.stage("meshing"):
             tell(progress, "meshing", 0)
-            left = min(options.vertices_of(points) / wanted, 1.0)
             attempts.append(extract_mesh(particles, bases, surface, options.meshing, left))
             tell(progress, "meshing", 1)
         excess = Budget.of(options.meshing).excess(attempts[-1])
@@ -191,7 +191,7 @@ def _particles_wanted(report: Report, points: int) -> int:
             f"Ask for at most half as many {what} as there are points.",
         )
     if options.particles.particles is None:
-        if Budget.of(options.meshing).asked is None:
+        if options.meshing.any_size:
             report.choices.append(Choice("vertices", vertices, "", f"one for every {POINTS_PER_VERTEX} points"))
         elif particles > vertices:
             why = f"what {points:,} points can show; the mesh is simplified from these"
