@@ -28,7 +28,7 @@ void register_parallel(nb::module_& module);
 void register_refinement(nb::module_& module);
 void register_remeshing(nb::module_& module);
 void register_restricted_voronoi(nb::module_& module);
-void register_simplification(nb::module_& module);
 void register_sheets(nb::module_& module);
+void register_simplification(nb::module_& module);
 void register_surface_distance(nb::module_& module);
 void register_wnnc(nb::module_& module);

@@ -18,8 +18,8 @@ NB_MODULE(_core, module) {
   register_refinement(module);
   register_remeshing(module);
   register_restricted_voronoi(module);
-  register_simplification(module);
   register_sheets(module);
+  register_simplification(module);
   register_surface_distance(module);
   register_wnnc(module);
 }
