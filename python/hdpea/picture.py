@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 
 from hdpea.errors import UsageError
 from hdpea.outputs import check_output, replacing
-from hdpea.viewpoint import choose_view
+from hdpea.viewpoint import choose_view, choose_view_of_points
 
 PICTURE_FORMATS = (".png",)
 FRONT, BACK, EDGES, DOTS = "#d3deed", "#e9bd90", "#33415c", "#c2410c"
@@ -125,8 +125,16 @@ class Camera:
     @classmethod
     def before(cls, vertices: NDArray[np.float64], faces: NDArray[np.int64]) -> Camera:
         """Look at a mesh (v, 3), (f, 3) obliquely, from the side that most of it faces."""
-        view_from_world = choose_view(vertices, faces)
-        in_view = vertices @ view_from_world.T
+        return cls._towards(vertices, choose_view(vertices, faces))
+
+    @classmethod
+    def before_points(cls, points: NDArray[np.float64], normals: NDArray[np.float64]) -> Camera:
+        """Look at points (n, 3) with unit normals (n, 3) as at a mesh."""
+        return cls._towards(points, choose_view_of_points(points, normals))
+
+    @classmethod
+    def _towards(cls, points: NDArray[np.float64], view_from_world: NDArray[np.float64]) -> Camera:
+        in_view = points @ view_from_world.T
         low, high = in_view.min(axis=0), in_view.max(axis=0)
         scale = float(np.linalg.norm(high - low)) or 1.0
         return cls(view_from_world, (low + high) / 2, scale, (high - low) / scale)
@@ -187,3 +195,28 @@ def draw_mesh(
             plotter.add_points(camera.to_view(points), color=DOTS, point_size=2)
         _look(plotter, np.zeros(3), camera.size, size)
         light_up(pyvista, plotter)
+
+
+def draw_points(
+    path: Path,
+    points: NDArray[np.float64],
+    colors: NDArray[np.uint8],
+    size: tuple[int, int],
+    camera: Camera,
+) -> None:
+    """Draw points (n, 3) in their colours (n, 3), red, green and blue, without light, large enough to leave few gaps.
+
+    Parameters
+    ----------
+    path, size, camera
+        As of ``draw_mesh``.
+
+    Raises
+    ------
+    UsageError
+        If nothing can be drawn on this machine, or the file cannot be written.
+    """
+    with drawn_to(path, window_size=list(size), lighting="none") as (_, plotter):
+        width = point_size(len(points), size)
+        plotter.add_points(camera.to_view(points), scalars=colors, rgb=True, point_size=width, lighting=False)
+        _look(plotter, np.zeros(3), camera.size, size)

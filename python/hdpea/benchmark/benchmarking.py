@@ -4,28 +4,24 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import asdict, dataclass, replace
-from functools import cached_property
+from dataclasses import asdict, replace
 from hashlib import sha256
 from pathlib import Path
 from typing import TypeVar
 
-from hdpea.benchmark.clouds import make_cloud, write_cloud
+from hdpea.benchmark.clouds import write_cloud
+from hdpea.benchmark.held_out import HeldOut
 from hdpea.benchmark.methods import Cloud
 from hdpea.benchmark.methods.folder import made_elsewhere
+from hdpea.benchmark.model import Model
 from hdpea.benchmark.provenance import code
-from hdpea.benchmark.record import Record, file_name, key_of, read_record, write_record
-from hdpea.benchmark.rendering import compare_renderings
+from hdpea.benchmark.record import RMS, Record, file_name, key_of, read_record, write_record
 from hdpea.benchmark.running import Task, run
-from hdpea.benchmark.suite import Suite, SuiteInput, SuiteMethod, SuiteOptions
+from hdpea.benchmark.suite import HELD_OUT, Suite, SuiteInput, SuiteMethod
+from hdpea.benchmark.true_surface import TrueSurface
 from hdpea.dataset.raycasting import require_embree
-from hdpea.dataset.sources import MeshSource, find_meshes
-from hdpea.dataset.surface_file import read_surface
+from hdpea.dataset.sources import MeshSource, find_clouds, find_meshes
 from hdpea.errors import HdpeaError, UsageError, core_errors_translated
-from hdpea.evaluation.evaluating import evaluate
-from hdpea.evaluation.options import EvaluationOptions
-from hdpea.evaluation.truth import Truth, truth_of_mesh
-from hdpea.reading.triangle_mesh import TriangleMesh
 from hdpea.version import version
 from hdpea.writing import write_mesh
 
@@ -33,22 +29,22 @@ Chosen = TypeVar("Chosen")
 RUNS, MESHES, CLOUDS, SURFACES = "runs", "meshes", "clouds", "surfaces"
 
 
-@dataclass
-class Model:
-    """A true mesh, read and prepared only if a run needs it, then once for all of them."""
+def sources_of(suite: Suite, where: str) -> list[MeshSource]:
+    """Return the files of as many models as the suite says: of the meshes, or clouds, that `where` names.
 
-    source: MeshSource
-    options: EvaluationOptions
+    Raises
+    ------
+    UnreadableInput
+        If there are none.
+    """
+    find = find_clouds if suite.options.truth == HELD_OUT else find_meshes
+    return evenly(find(where), suite.options.models)
 
-    @cached_property
-    def surface(self) -> TriangleMesh:
-        """The closed surface."""
-        return read_surface(self.source.path)
 
-    @cached_property
-    def truth(self) -> Truth:
-        """The surface as results are measured against it."""
-        return truth_of_mesh(*self.surface, self.options)
+def model_of(suite: Suite, source: MeshSource) -> Model:
+    """Return the model in a file, as the suite takes it."""
+    kind = HeldOut if suite.options.truth == HELD_OUT else TrueSurface
+    return kind(source, suite.options)
 
 
 def run_suite(
@@ -57,7 +53,7 @@ def run_suite(
     folder: Path,
     told: Callable[[str], None] = lambda _: None,
 ) -> list[Record]:
-    """Run a suite on the meshes that `meshes` names (see ``find_meshes``); return every record, also of failures.
+    """Run a suite on the models that `meshes` names (see ``sources_of``); return every record, also of failures.
 
     What `folder` holds of an earlier run is kept if nothing it depends on has changed; failures are tried again. It
     gets ``clouds/`` (the points that every method was given), ``surfaces/`` (what is then reduced), ``meshes/`` and
@@ -71,22 +67,21 @@ def run_suite(
     Raises
     ------
     UnreadableInput
-        If there are no meshes.
+        If there are no models.
     UsageError
         If the folder cannot be written, or scans are asked for and embreex is not installed.
     """
     if any(given.sample.kind == "scan" for given in suite.inputs):
         require_embree()  # said once, not of every model
-    sources = evenly(find_meshes(meshes), suite.options.models)
+    sources = sources_of(suite, meshes)
     try:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise UsageError(f"Cannot write to {folder}: {error.strerror}.", "Choose another folder.") from error
     total = len(sources) * len(suite.inputs) * len(suite.methods) * len(suite.options.vertices)
     records: list[Record] = []
-    measuring = EvaluationOptions(samples=suite.options.samples)
     for source in sources:
-        for record, news in _runs_of(suite, Model(source, measuring), folder):
+        for record, news in _runs_of(suite, model_of(suite, source), folder):
             records.append(record)
             told(f"[{len(records)} of {total}] {record.stem.as_posix()}: {news}")
     return records
@@ -105,8 +100,8 @@ def _runs_of(suite: Suite, model: Model, folder: Path) -> Iterator[tuple[Record,
                 if earlier is not None and earlier.key == planned.key and not earlier.failed and mesh.exists():
                     yield earlier, "is there already"
                     continue
-                cloud = cloud or _cloud(suite, model, given, folder)
-                record = _run(planned, model, cloud, method, suite.options, folder)
+                cloud = cloud or _cloud(model, given, folder)
+                record = _run(planned, model, cloud, method, folder)
                 write_record(path, record)
                 yield record, _news(record)
 
@@ -118,35 +113,32 @@ def mesh_path(folder: Path, record: Record) -> Path:
 
 def _planned(suite: Suite, model: Model, given: SuiteInput, method: SuiteMethod, vertices: int) -> Record:
     """Return the record of a run that has not been done."""
-    name = model.source.name
-    file = None if method.method != "folder" else made_elsewhere(method.options(), name, given.name, vertices)
+    file = None if method.method != "folder" else made_elsewhere(method.options(), model.name, given.name, vertices)
     content = sha256(file.read_bytes()).hexdigest() if file is not None and file.is_file() else None
-    of_points = (suite.options.seed, asdict(given), model.source.sha256())
-    measured = (asdict(model.options), suite.options.rendered)
-    key = key_of(version(), name, of_points, method.method, dict(method.values), content, vertices, measured)
-    return Record(name, given.name, method.name, vertices, key, code())
+    of_points = (suite.options.seed, asdict(given), model.content)
+    measured = (asdict(model.measuring), suite.options.rendered)
+    key = key_of(version(), model.name, of_points, method.method, dict(method.values), content, vertices, measured)
+    return Record(model.name, given.name, method.name, vertices, key, code())
 
 
-def _cloud(suite: Suite, model: Model, given: SuiteInput, folder: Path) -> Cloud | HdpeaError:
+def _cloud(model: Model, given: SuiteInput, folder: Path) -> Cloud | HdpeaError:
     """Make the points and write them; if they cannot be had, return why."""
     try:
         with core_errors_translated():
-            cloud = make_cloud(model.surface, model.source.name, given, suite.options.seed)
+            cloud = model.cloud(given)
     except HdpeaError as error:
         return error
-    write_cloud(folder / CLOUDS / file_name(given.name) / f"{file_name(model.source.name)}.ply", cloud)
+    write_cloud(folder / CLOUDS / file_name(given.name) / f"{file_name(model.name)}.ply", cloud)
     return cloud
 
 
-def _run(
-    planned: Record, model: Model, cloud: Cloud | HdpeaError, method: SuiteMethod, options: SuiteOptions, folder: Path
-) -> Record:
+def _run(planned: Record, model: Model, cloud: Cloud | HdpeaError, method: SuiteMethod, folder: Path) -> Record:
     """Run, write the mesh, measure it."""
     if isinstance(cloud, HdpeaError):
         return replace(planned, failed=cloud.message)
     surfaces = folder / SURFACES / planned.stem.parent
     task = Task(cloud, method.method, method.values, planned.vertices, surfaces)
-    outcome = run(task, options.time_limit)
+    outcome = run(task, model.options.time_limit)
     if outcome.result is None:
         return replace(planned, failed=outcome.failed, seconds=outcome.seconds)
     made = outcome.result
@@ -155,10 +147,7 @@ def _run(
     write_mesh(path, *made.mesh)
     done = replace(planned, seconds=made.seconds, cpu_seconds=made.cpu_seconds, peak_bytes=made.peak_bytes)
     try:
-        scores = evaluate(*made.mesh, model.truth).as_dict()
-        if options.rendered:
-            scores["rendering"] = compare_renderings(model.surface, made.mesh)
-        return replace(done, scores=scores)
+        return replace(done, scores=model.scores(made.mesh))
     except HdpeaError as error:
         return replace(done, failed=f"It cannot be measured: {error.message}")
 
@@ -166,7 +155,7 @@ def _run(
 def _news(record: Record) -> str:
     if record.failed:
         return f"failed: {record.failed}"
-    rms = record.score("accuracy.longest_side.to_truth.rms") or 0.0
+    rms = record.score(*RMS) or 0.0
     vertices = record.score("topology.vertices") or 0.0
     return f"{vertices:,.0f} vertices, rms {1e2 * rms:.3f} % of the longest side, {record.seconds:.1f} s"
 

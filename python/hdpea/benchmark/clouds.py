@@ -7,6 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
+from numpy.typing import NDArray
 
 from hdpea.benchmark.methods import Cloud
 from hdpea.benchmark.suite import SuiteInput
@@ -20,6 +21,8 @@ from hdpea.frame import UnitFrame
 from hdpea.outputs import replacing
 from hdpea.reading.triangle_mesh import TriangleMesh
 from hdpea.writing import point_ply
+
+Rows = NDArray[np.float64]
 
 
 def make_cloud(surface: TriangleMesh, model: str, given: SuiteInput, seed: int) -> Cloud:
@@ -38,8 +41,20 @@ def make_cloud(surface: TriangleMesh, model: str, given: SuiteInput, seed: int) 
     frame = UnitFrame.around(surface[0])
     wanted = DatasetOptions(given.sample, SamplingOptions(points=given.scan.points), given.scan)
     points, surface_points, normals, _ = draw_points(frame.to_unit(surface[0]), surface[1], wanted, seed)
-    nothing = np.zeros((len(points), 0), np.float32)  # no method is given the embedding
-    sample = Sample(
+    sample = bare_sample(points, surface_points, normals, frame)
+    worse = degraded(sample, replace(given.degradation, seed=seed))
+    if given.sample.estimate:
+        worse = replace(worse, estimated_normals=estimated_normals(worse.points))
+    return cloud_of(worse, model, given)
+
+
+def bare_sample(points: Rows, surface_points: Rows, normals: Rows, frame: UnitFrame) -> Sample:
+    """Return a sample of points, the points of the surface they stand for, and normals, each (n, 3), unit frame.
+
+    It has no embedding: no method is given one.
+    """
+    nothing = np.zeros((len(points), 0), np.float32)
+    return Sample(
         points=points.astype(np.float32),
         surface_points=surface_points.astype(np.float32),
         normals=normals.astype(np.float32),
@@ -48,11 +63,13 @@ def make_cloud(surface: TriangleMesh, model: str, given: SuiteInput, seed: int) 
         direction1=nothing,
         frame=frame,
     )
-    worse = degraded(sample, replace(given.degradation, seed=seed))
-    if given.sample.estimate:
-        worse = replace(worse, estimated_normals=estimated_normals(worse.points))
-    known = worse.normals if worse.estimated_normals is None else worse.estimated_normals
-    return Cloud(frame.to_world(worse.points.astype(np.float64)), known.astype(np.float64), model, given.name)
+
+
+def cloud_of(sample: Sample, model: str, given: SuiteInput) -> Cloud:
+    """Return what methods are given of a sample: its points in world units, its estimated normals if it has any."""
+    normals = sample.normals if sample.estimated_normals is None else sample.estimated_normals
+    points = sample.frame.to_world(sample.points.astype(np.float64))
+    return Cloud(points, normals.astype(np.float64), model, given.name)
 
 
 def write_cloud(path: Path, cloud: Cloud) -> None:

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -10,9 +11,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hdpea import _core
+from hdpea.colors import as_bytes
 from hdpea.evaluation.normalization import LONGEST_SIDE
-from hdpea.picture import Camera, draw_mesh
+from hdpea.normals import oriented_surface
+from hdpea.picture import Camera, draw_mesh, draw_points
 from hdpea.reading.triangle_mesh import TriangleMesh
+from hdpea.thinning import thinned
 
 SIZE = (560, 560)
 """Pixels of a picture."""
@@ -30,25 +34,46 @@ ERROR_COLORS = np.array([[244, 244, 240], [253, 218, 120], [240, 120, 50], [165,
 """Of errors from 0 to ``RED_FROM``, evenly spaced."""
 
 
-@dataclass(frozen=True)
-class Scene:
-    """The true surface and the camera that looks at it."""
+SHOWN_POINTS = 40_000
+"""Of a truth that is points, in its picture: enough to leave no gaps."""
 
-    truth: TriangleMesh
+LIGHT = np.array([-0.28, 0.41, 0.87])
+"""Where the light comes from as the eye sees it: above, on the left, as on meshes; unit."""
+
+
+@dataclass(frozen=True)
+class Scene(ABC):
+    """The truth, and the camera that looks at it."""
+
     camera: Camera
 
-    @classmethod
-    def of(cls, truth: TriangleMesh) -> Scene:
-        """Look at a surface."""
-        return cls(truth, Camera.before(*truth))
-
+    @abstractmethod
     def draw_truth(self, path: Path) -> None:
-        """Draw the truth with its edges."""
-        draw_mesh(path, *self.truth, size=SIZE, camera=self.camera)
+        """Draw the truth."""
+
+    @abstractmethod
+    def draw_error(self, path: Path, mesh: TriangleMesh) -> None:
+        """Draw how far a result is from the truth."""
 
     def draw(self, path: Path, mesh: TriangleMesh) -> None:
         """Draw a result with its edges."""
         draw_mesh(path, *mesh, size=SIZE, camera=self.camera)
+
+
+@dataclass(frozen=True)
+class SurfaceScene(Scene):
+    """A true surface, to be looked at."""
+
+    truth: TriangleMesh
+
+    @classmethod
+    def of(cls, truth: TriangleMesh) -> SurfaceScene:
+        """Look at a surface."""
+        return cls(Camera.before(*truth), truth)
+
+    def draw_truth(self, path: Path) -> None:
+        """Draw the truth with its edges."""
+        draw_mesh(path, *self.truth, size=SIZE, camera=self.camera)
 
     def draw_error(self, path: Path, mesh: TriangleMesh) -> None:
         """Draw a result coloured by its distance to the truth."""
@@ -56,6 +81,43 @@ class Scene:
         vertices, faces = subdivided(*mesh, COLORED_EDGE * longest)
         distances = _core.closest_surface_points(*self.truth, vertices).distance / longest
         draw_mesh(path, vertices, faces, size=SIZE, camera=self.camera, colors=error_colors(distances))
+
+
+@dataclass(frozen=True)
+class PointScene(Scene):
+    """Points (n, 3) of a surface that is not known, to be looked at; `shown` (m, 3) and `normals` (m, 3) of some."""
+
+    points: NDArray[np.float64]
+    shown: NDArray[np.float64]
+    normals: NDArray[np.float64]
+
+    @classmethod
+    def of(cls, points: NDArray[np.float64], normals: NDArray[np.float64] | None) -> PointScene:
+        """Look at points (n, 3), finite and distinct, and their unit normals (n, 3), 0 where unknown.
+
+        Raises
+        ------
+        CannotReconstruct
+            If they are too few, equal or on a line.
+        """
+        rows = thinned(len(points), SHOWN_POINTS)
+        oriented = oriented_surface(points[rows], None if normals is None else normals[rows]).surface.normals
+        return cls(Camera.before_points(points[rows], oriented), points, points[rows], oriented)
+
+    def draw_truth(self, path: Path) -> None:
+        """Draw the truth as points, shaded as a mesh is."""
+        draw_points(path, self.shown, shades(self.normals @ self.camera.view_from_world.T), SIZE, self.camera)
+
+    def draw_error(self, path: Path, mesh: TriangleMesh) -> None:
+        """Draw the points of the truth coloured by their distance to a result."""
+        longest = float(np.ptp(self.points, axis=0).max())
+        distances = _core.closest_surface_points(*mesh, self.points).distance / longest
+        draw_points(path, self.points, error_colors(distances), SIZE, self.camera)
+
+
+def shades(normals_in_view: NDArray[np.float64]) -> NDArray[np.uint8]:
+    """Return a grey (n, 3) for each normal (n, 3), x to the right, y up, z towards the eye, whichever side shows."""
+    return as_bytes(np.tile(0.3 + 0.6 * abs(normals_in_view @ LIGHT)[:, None], 3))
 
 
 def error_colors(distances: NDArray[np.float64]) -> NDArray[np.uint8]:

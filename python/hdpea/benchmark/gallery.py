@@ -9,12 +9,10 @@ from functools import partial
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from hdpea.benchmark.benchmarking import evenly, mesh_path
-from hdpea.benchmark.drawing import Scene
+from hdpea.benchmark.benchmarking import evenly, mesh_path, model_of, sources_of
+from hdpea.benchmark.model import Model
 from hdpea.benchmark.record import Record, file_name
 from hdpea.benchmark.suite import Suite
-from hdpea.dataset.sources import MeshSource, find_meshes
-from hdpea.dataset.surface_file import read_surface
 from hdpea.outputs import replacing
 from hdpea.reading.triangle_mesh import read_triangle_mesh
 
@@ -46,20 +44,20 @@ def draw_gallery(
     gallery = Gallery({}, {})
     if suite.options.pictures == 0:
         return gallery
-    for source in evenly(evenly(find_meshes(meshes), suite.options.models), suite.options.pictures):
+    for source in evenly(sources_of(suite, meshes), suite.options.pictures):
         told(f"drawing {source.name}")
-        _draw_model(gallery, source, folder, [each for each in records if each.model == source.name])
+        _draw_model(gallery, model_of(suite, source), folder, [each for each in records if each.model == source.name])
     return gallery
 
 
-def _draw_model(gallery: Gallery, source: MeshSource, folder: Path, records: Sequence[Record]) -> None:
+def _draw_model(gallery: Gallery, model: Model, folder: Path, records: Sequence[Record]) -> None:
     finished = [each for each in records if not each.failed]
     if not finished:
         return
-    scene = Scene.of(read_surface(source.path))
-    truth = folder / PICTURES / f"{file_name(source.name)}.webp"
-    _drawn(truth, source.path, scene.draw_truth)
-    gallery.truths[source.name] = truth
+    scene = model.scene()
+    truth = folder / PICTURES / f"{file_name(model.name)}.webp"
+    _drawn(truth, model.source.path, scene.draw_truth)
+    gallery.truths[model.name] = truth
     for record in finished:
         path = mesh_path(folder, record)
         base = folder / PICTURES / record.stem

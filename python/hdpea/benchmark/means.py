@@ -18,7 +18,8 @@ Point = tuple[float, float]
 class Column:
     """A column of the means: the path to its score, {unit} being the normalisation, and how it is written.
 
-    `better` is 1 where larger is better, -1 where smaller is, and 0 where neither.
+    `better` is 1 where larger is better, -1 where smaller is, and 0 where neither. Where the score `unless` is known,
+    this one has nothing to add.
     """
 
     title: str
@@ -28,6 +29,13 @@ class Column:
     better: int = 0
     floor: str = ""
     quoted: str = ""
+    unless: str = ""
+
+    def of(self, record: Record, unit: str) -> float | None:
+        """Return the score of a run; None if there is none or a better one."""
+        if self.unless and record.score(self.unless.format(unit=unit)) is not None:
+            return None
+        return record.score(self.path.format(unit=unit))
 
     def text(self, value: float | None) -> str:
         """Return a value as it stands in the table."""
@@ -43,6 +51,8 @@ COLUMNS = (
     Column("vertices", "topology.vertices", digits=0, quoted="vertices"),
     Column("exact CD (1e-5)", "accuracy.{unit}.chamfer", 1e5, better=-1),
     Column("exact HD (1e-2)", "accuracy.{unit}.hausdorff", 1e2, better=-1),
+    Column("exact rms (1e-2)", "accuracy.{unit}.to_result.rms", 1e2, better=-1, unless="accuracy.{unit}.chamfer"),
+    Column("exact max (1e-2)", "accuracy.{unit}.to_result.max", 1e2, better=-1, unless="accuracy.{unit}.hausdorff"),
     Column("G", "triangles.g", better=1, quoted="g"),
     _between_samples("CD (1e-5)", "chamfer", 1e5, 3, -1),
     _between_samples("F1", "f1", 1, 4, 1),
@@ -73,7 +83,7 @@ class Means:
 
 
 def means_of(records: Sequence[Record], suite: Suite, given: str, vertices: int) -> list[Means]:
-    """Return a row for each method, and the floor; methods that finished nothing have no values."""
+    """Return a row for each method, and the floor if it is known; methods that finished nothing have no values."""
     here = [each for each in records if (each.given, each.vertices) == (given, vertices)]
     of_method = {
         method.name: {each.model: each for each in here if each.method == method.name} for method in suite.methods
@@ -84,7 +94,7 @@ def means_of(records: Sequence[Record], suite: Suite, given: str, vertices: int)
     rows = []
     for name, runs in of_method.items():
         counted = [runs[model] for model in sorted(common & done[name])]
-        values = tuple(_mean([each.score(column.path.format(unit=unit)) for each in counted]) for column in COLUMNS)
+        values = tuple(_mean([column.of(each, unit) for each in counted]) for column in COLUMNS)
         times = tuple(_mean([getattr(each, field) for each in counted]) for field, _, _ in TIMES)
         rows.append(Means(name, len(done[name]), len(runs), values, times))
     # The floor is the same in every record of a model.
@@ -93,7 +103,8 @@ def means_of(records: Sequence[Record], suite: Suite, given: str, vertices: int)
         _mean([each.score(column.floor.format(unit=unit)) for each in finished]) if column.floor else None
         for column in COLUMNS
     )
-    return [*rows, Means(FLOOR, len(common), len(common), floors, (None,) * len(TIMES))] if finished else rows
+    floor = Means(FLOOR, len(common), len(common), floors, (None,) * len(TIMES))
+    return [*rows, floor] if any(value is not None for value in floors) else rows
 
 
 def error_by_size(records: Sequence[Record], suite: Suite, given: str, column: Column) -> dict[str, list[Point]]:
@@ -108,7 +119,7 @@ def error_by_size(records: Sequence[Record], suite: Suite, given: str, column: C
         common = _common(_finished(here, suite))
         for name, curve in curves.items():
             counted = [each for each in here if each.method == name and each.model in common and not each.failed]
-            errors = [each.score(column.path.format(unit=suite.options.normalization)) for each in counted]
+            errors = [column.of(each, suite.options.normalization) for each in counted]
             size = _mean([each.score("topology.vertices") for each in counted])
             if size and all(errors):
                 logarithm = _mean([log(error) for error in errors if error])

@@ -11,9 +11,11 @@ from hdpea.benchmark.suite import Suite
 NAMED = 8
 """Models that are named; of more, the number is told."""
 
-
 ERRORS = {"exact CD": "chamfer", "exact HD": "hausdorff"}
 """Errors of which it is told, by their titles: the names of their scores."""
+
+ERRORS_OF_POINTS = {"exact rms": "to_result.rms", "CD": "samples.chamfer"}
+"""The same where the truth is only points: the way back, from the result, is known between samples alone."""
 
 
 def nearest_sentences(records: Sequence[Record], suite: Suite, given: str, vertices: int) -> str:
@@ -24,12 +26,16 @@ def nearest_sentences(records: Sequence[Record], suite: Suite, given: str, verti
     here = [each for each in records if (each.given, each.vertices) == (given, vertices) and not each.failed]
     if len({each.method for each in here}) < 2:
         return ""
-    told = []
-    for title, name in ERRORS.items():
-        won = _won(here, f"accuracy.{suite.options.normalization}.{name}")
-        by_method = [f"{method.name} on {_models(won[method.name])}" for method in suite.methods if method.name in won]
-        told.append(f"Smallest {title}: {'; '.join(by_method)}.")
-    return " ".join(told)
+    for errors in (ERRORS, ERRORS_OF_POINTS):
+        won = {title: _won(here, f"accuracy.{suite.options.normalization}.{name}") for title, name in errors.items()}
+        if any(won.values()):
+            return " ".join(_sentence(title, suite, by_method) for title, by_method in won.items())
+    return ""
+
+
+def _sentence(title: str, suite: Suite, won: dict[str, list[str]]) -> str:
+    by_method = [f"{method.name} on {_models(won[method.name])}" for method in suite.methods if method.name in won]
+    return f"Smallest {title}: {'; '.join(by_method)}."
 
 
 def _won(records: Sequence[Record], path: str) -> dict[str, list[str]]:

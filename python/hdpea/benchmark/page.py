@@ -12,8 +12,8 @@ from hdpea.benchmark.drawing import ERROR_COLORS, RED_FROM
 from hdpea.benchmark.gallery import Gallery
 from hdpea.benchmark.means import means_of
 from hdpea.benchmark.nearest import nearest_sentences
-from hdpea.benchmark.record import Record
-from hdpea.benchmark.suite import Suite
+from hdpea.benchmark.record import LARGEST, RMS, Record
+from hdpea.benchmark.suite import HELD_OUT, MESH, Suite
 from hdpea.benchmark.tables import cells_of, quoted_cells
 from hdpea.outputs import replacing
 
@@ -38,6 +38,12 @@ document.querySelectorAll("figure img").forEach(each =>
   each.addEventListener("click", () => { large.src = each.src; dialog.showModal(); }));
 dialog.addEventListener("click", () => dialog.close());
 """
+
+ERROR_MAPS = {
+    MESH: "from the surface of the result to the truth",
+    HELD_OUT: "from each point of the truth to the surface of the result",
+}
+"""What the error maps show, by the kind of the truth."""
 
 
 def write_page(
@@ -96,7 +102,7 @@ def _gallery(suite: Suite, records: Sequence[Record], gallery: Gallery) -> Itera
     colors = ", ".join(f"rgb({r}, {g}, {b})" for r, g, b in ERROR_COLORS)
     yield "<h2>Side by side</h2>"
     yield (
-        "<p>Error, from the surface of the result to the truth: 0 "
+        f"<p>Error, {ERROR_MAPS[suite.options.truth]}: 0 "
         f'<span class="scale" style="background: linear-gradient(to right, {colors})"></span> '
         f"{100 * RED_FROM:g} % of the longest side and more. Brown: the inside of a face. A click enlarges.</p>"
     )
@@ -115,10 +121,11 @@ def _figure(record: Record, gallery: Gallery) -> str:
     pictures = gallery.results.get(record.stem)
     if pictures is None:
         return f"<figure><figcaption>{escape(record.method)}: {escape(record.failed)}</figcaption></figure>"
-    rms = 1e2 * (record.score("accuracy.longest_side.to_truth.rms") or 0.0)
-    largest = 1e2 * (record.score("accuracy.longest_side.hausdorff") or 0.0)
+    rms = 1e2 * (record.score(*RMS) or 0.0)
+    largest = 1e2 * (record.score(*LARGEST) or 0.0)
     facts = f"{record.score('topology.vertices') or 0:,.0f} vertices, rms {rms:.3f} %, max {largest:.2f} %"
-    quality = f"G {record.score('triangles.g') or 0:.3f}"
+    g = record.score("triangles.g")
+    quality = "" if g is None else f"G {g:.3f}"
     caption = f"<b>{escape(record.method)}</b><br>{facts}<br>{quality}"
     return f"<figure>{_image(pictures.surface)}{_image(pictures.error)}<figcaption>{caption}</figcaption></figure>"
 

@@ -13,6 +13,12 @@ from typing import Any
 
 from hdpea.outputs import replacing
 
+RMS = ("accuracy.longest_side.to_truth.rms", "accuracy.longest_side.to_result.rms")
+"""Paths to the distance that people are told of a run: from the result, or if the truth is only points, from these."""
+
+LARGEST = ("accuracy.longest_side.hausdorff", "accuracy.longest_side.to_result.max")
+"""The same for the largest distance, either way or from the points."""
+
 
 @dataclass(frozen=True)
 class Record:
@@ -49,12 +55,18 @@ class Record:
     peak_bytes: int = 0
     scores: Mapping[str, Any] = field(default_factory=dict)
 
-    def score(self, path: str) -> float | None:
-        """Return a score by the names on the way to it, such as ``triangles.g``; None where there is none."""
-        found: Any = self.scores
-        for name in path.split("."):
-            found = found.get(name) if isinstance(found, Mapping) else None
-        return None if found is None else float(found)
+    def score(self, *paths: str) -> float | None:
+        """Return a score by the names on the way to it, such as ``triangles.g``; of several, the first there is.
+
+        None where there is none.
+        """
+        for path in paths:
+            found: Any = self.scores
+            for name in path.split("."):
+                found = found.get(name) if isinstance(found, Mapping) else None
+            if found is not None:
+                return float(found)
+        return None
 
     @property
     def stem(self) -> Path:

@@ -15,16 +15,25 @@ from hdpea.evaluation.normalization import LONGEST_SIDE, NORMALIZATIONS
 from hdpea.evaluation.options import EvaluationOptions
 from hdpea.options import Checked, option
 
+MESH, HELD_OUT = "mesh", "held_out"
+
 
 @dataclass(frozen=True)
 class SuiteOptions(Checked):
     """What a suite says about all its runs."""
 
     title: str = option("", "what it is, in a line")
-    meshes: str = option("", "folder of the true meshes, from where the suite lies; --meshes wins over it")
+    meshes: str = option("", "folder of the models, from where the suite lies; --meshes wins over it")
+    truth: str = option(
+        MESH,
+        "mesh: models are true surfaces; held_out: they are clouds, half of which no method is given and is the truth",
+        choices=(MESH, HELD_OUT),
+    )
     models: int = option(0, "how many of them, evenly over their names; 0: all", minimum=0)
     points: int = option(
-        40_000, "points of each input that does not say otherwise, before any are taken away", minimum=100
+        40_000,
+        "points of each input that does not say otherwise, before any are taken away; of a cloud, at most half",
+        minimum=100,
     )
     vertices: tuple[int, ...] = option((5_000,), "vertices wanted, one or several numbers")
     samples: int = option(EvaluationOptions().samples, "points drawn of each surface to measure a result", minimum=1)
@@ -42,6 +51,10 @@ class SuiteOptions(Checked):
         super().__post_init__()
         if not self.vertices or any(type(each) is not int or each < 4 for each in self.vertices):
             raise UsageError(f"vertices is {self.vertices}.", "It is a list of whole numbers of at least 4.")
+        if self.rendered and self.truth == HELD_OUT:
+            raise UsageError(
+                "A cloud cannot be rendered: it has no surface.", 'Leave out rendered or truth = "held_out".'
+            )
 
 
 @dataclass(frozen=True)
@@ -96,7 +109,15 @@ class Suite:
     quoted: tuple[Quoted, ...] = ()
     folder: Path = field(default_factory=Path)
 
+    def __post_init__(self) -> None:
+        for each in self.inputs:
+            if self.options.truth == HELD_OUT and each.sample.kind != SampleOptions().kind:
+                raise UsageError(
+                    f"The input {each.name!r} is of kind {each.sample.kind!r}: a cloud has no surface for that.",
+                    "Leave out kind: points of the cloud are taken at random.",
+                )
+
     @property
     def meshes(self) -> str:
-        """Where the true meshes are; empty if the suite does not say."""
+        """Where the models are; empty if the suite does not say."""
         return str(self.folder / self.options.meshes) if self.options.meshes else ""

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The meshes that a dataset is made from, and what is known of where they come from."""
+"""The meshes that a dataset is made from, or clouds of real scans, and what is known of where they come from."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ from hashlib import sha256
 from pathlib import Path
 
 from hdpea.errors import UnreadableInput
+from hdpea.reading import CLOUD_FORMATS
 from hdpea.reading.triangle_mesh import SURFACE_FORMATS
 
 UNSTATED = "unstated"
@@ -18,7 +19,7 @@ THINGI10K = "thingi10k:"
 
 @dataclass(frozen=True)
 class MeshSource:
-    """A mesh file: a name unique among them, where it was found, whose it is, and under what terms."""
+    """A file of a mesh, or of a cloud: a name unique among them, where it was found, whose it is, under what terms."""
 
     name: str
     source: str
@@ -51,14 +52,29 @@ def find_meshes(where: str) -> list[MeshSource]:
         from hdpea.dataset.thingi10k import find_models
 
         return find_models(where.removeprefix(THINGI10K))
-    root = Path(where)
+    return _found(Path(where), SURFACE_FORMATS, "meshes")
+
+
+def find_clouds(where: str) -> list[MeshSource]:
+    """Return the point clouds in a folder and its subfolders, or a file, ordered by name; see ``find_meshes``.
+
+    Raises
+    ------
+    UnreadableInput
+        If there is no such file or folder, no cloud in it, or its MANIFEST.json is damaged.
+    """
+    return _found(Path(where), CLOUD_FORMATS, "point clouds")
+
+
+def _found(root: Path, formats: tuple[str, ...], kind: str) -> list[MeshSource]:
+    """Return the files of these formats; `kind` is what people call them."""
     if not root.exists():
         raise UnreadableInput(f"There is no file or folder {root}.", "Check the spelling.")
     folder = root if root.is_dir() else root.parent
     files = sorted(root.rglob("*")) if root.is_dir() else [root]
-    paths = [path for path in files if path.is_file() and path.suffix.lower() in SURFACE_FORMATS]
+    paths = [path for path in files if path.is_file() and path.suffix.lower() in formats]
     if not paths:
-        raise UnreadableInput(f"There are no meshes in {root}.", f"Meshes end in {', '.join(SURFACE_FORMATS)}.")
+        raise UnreadableInput(f"There are no {kind} in {root}.", f"{kind.capitalize()} end in {', '.join(formats)}.")
     known = _known_origins(folder)
     sources = [_described(path, folder, known) for path in paths]
     return sorted(_named_apart(sources), key=lambda each: each.name)
@@ -71,7 +87,7 @@ def _described(path: Path, folder: Path, known: dict[Path, tuple[str, str]]) -> 
 
 
 def _named_apart(sources: list[MeshSource]) -> list[MeshSource]:
-    """Give meshes of one name, such as cube.obj and cube.stl, their extension too."""
+    """Give files of one name, such as cube.obj and cube.stl, their extension too."""
     names = [each.name for each in sources]
     return [each if names.count(each.name) == 1 else replace(each, name=each.source) for each in sources]
 

@@ -22,7 +22,12 @@ from hdpea.reading.meshes import parse_obj, parse_off
 from hdpea.reading.ply import parse_ply
 from hdpea.reading.text import parse_text
 
-__all__ = ["DAMAGE", "PointCloud", "parse_points", "read_bytes", "read_points"]
+__all__ = ["CLOUD_FORMATS", "DAMAGE", "PointCloud", "parse_points", "read_bytes", "read_points"]
+
+CLOUD_FORMATS = (
+    ".ply", ".xyz", ".xyzn", ".txt", ".csv", ".asc", ".pts", ".pwn", ".obj", ".off", ".npy", ".npz"
+)  # fmt: skip
+"""Extensions by which clouds are found in a folder; what a file holds is told by its content."""
 
 _FORMATS: list[tuple[re.Pattern[bytes], Callable[[bytes], PointCloud]]] = [
     (re.compile(rb"ply\s"), parse_ply),

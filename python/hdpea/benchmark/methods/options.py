@@ -33,6 +33,12 @@ class PoissonOptions(ReducedOptions):
     """Screened Poisson reconstruction (Kazhdan and Hoppe, 2013), by MeshLab."""
 
     depth: int = option(8, "of the octree", minimum=1, maximum=14)
+    trim: float = option(
+        0.0,
+        "levels of the octree below the median vertex's from which surface far from points is cut away, as is done "
+        "with open scans; 0: none is",
+        minimum=0,
+    )
 
 
 @dataclass(frozen=True)

@@ -3,14 +3,21 @@
 
 from __future__ import annotations
 
+import numpy as np
+
 from hdpea.benchmark.methods import Cloud
 from hdpea.benchmark.methods.meshlab import current_mesh, with_points
 from hdpea.benchmark.methods.options import PoissonOptions
-from hdpea.reading.triangle_mesh import TriangleMesh
+from hdpea.reading.triangle_mesh import TriangleMesh, drop_unused
 
 
 def surface(cloud: Cloud, options: PoissonOptions) -> TriangleMesh:
-    """Return the surface, of as many vertices as the octree gives it."""
+    """Return the surface, of as many vertices as the octree gives it; trimmed where few points are, if asked for."""
     document = with_points(cloud)
     document.generate_surface_reconstruction_screened_poisson(depth=options.depth, preclean=True)
-    return current_mesh(document)
+    vertices, faces = current_mesh(document)
+    if options.trim == 0:
+        return vertices, faces
+    levels = document.current_mesh().vertex_scalar_array()
+    kept = levels >= np.median(levels) - options.trim
+    return drop_unused(vertices, faces[kept[faces].all(axis=1)])

@@ -1,0 +1,88 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Models of which only a cloud is known, such as real scans: points that no method is given are the truth."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+
+from hdpea.benchmark.clouds import bare_sample, cloud_of
+from hdpea.benchmark.drawing import PointScene, Scene
+from hdpea.benchmark.methods import Cloud
+from hdpea.benchmark.model import Model
+from hdpea.benchmark.suite import HELD_OUT, SuiteInput
+from hdpea.dataset.building import seed_of
+from hdpea.dataset.degradation import degraded
+from hdpea.dataset.options import DegradationOptions
+from hdpea.evaluation.truth import Truth, truth_of_points
+from hdpea.frame import UnitFrame
+from hdpea.normals import oriented_surface
+from hdpea.reading import PointCloud, read_points
+
+
+@dataclass
+class HeldOut(Model):
+    """A cloud in two halves: of one, inputs are made; the other is the truth."""
+
+    @property
+    def content(self) -> str:
+        """As of any model; a file that is a mesh has another truth by its vertices than by its surface."""
+        return f"{HELD_OUT} of {self.source.sha256()}"
+
+    @cached_property
+    def halves(self) -> tuple[PointCloud, PointCloud]:
+        """Points to be given, in random order, and points held out."""
+        return halves_of(read_points(self.source.path), seed_of(self.name, self.options.seed))
+
+    @cached_property
+    def truth(self) -> Truth:
+        """The points held out, with the normals of the file, if it has any."""
+        _, held_out = self.halves
+        return truth_of_points(held_out.points, held_out.normals, self.measuring)
+
+    def cloud(self, given: SuiteInput) -> Cloud:
+        """Take the first points of those to be given: as many as the input wants, or all."""
+        to_give, _ = self.halves
+        return make_cloud_of_points(to_give, self.name, given, self.options.seed)
+
+    def scene(self) -> Scene:
+        """Return the points held out, to be drawn."""
+        _, held_out = self.halves
+        return PointScene.of(held_out.points, held_out.normals)
+
+
+def halves_of(cloud: PointCloud, seed: int) -> tuple[PointCloud, PointCloud]:
+    """Return two halves of a cloud at random, each in random order; the second has the odd point."""
+    rows = np.random.default_rng(seed).permutation(len(cloud.points))
+    half = len(rows) // 2
+    return cloud.at(rows[:half]), cloud.at(rows[half:])
+
+
+def make_cloud_of_points(to_give: PointCloud, model: str, given: SuiteInput, seed: int) -> Cloud:
+    """Take the first points of a cloud in world units, and make them worse; the same for the same names and seed.
+
+    Normals are the file's where they are usable, unless the input says that they are to be estimated; the others are
+    estimated from the points that are given, and all are oriented as ``hdpea.normals`` does by default.
+
+    Raises
+    ------
+    CannotReconstruct
+        If the points are too few, equal or on a line.
+    UsageError
+        If no points are left.
+    """
+    seed = seed_of(model, seed)
+    frame = UnitFrame.around(to_give.points)  # of all of them: noise does not depend on how many are taken
+    taken = to_give.at(np.arange(min(given.scan.points, len(to_give.points))))
+    points = frame.to_unit(taken.points)
+    from_file = np.zeros_like(points) if taken.normals is None else taken.normals
+    asked = replace(given.degradation, seed=seed)
+    worse = degraded(bare_sample(points, points, from_file, frame), replace(asked, normal_noise=0.0, flipped=0.0))
+    known = None if given.sample.estimate else worse.normals.astype(np.float64)
+    oriented = oriented_surface(worse.points.astype(np.float64), known).surface.normals
+    # Last: what is oriented anew would not be flipped any more.
+    of_normals = DegradationOptions(normal_noise=asked.normal_noise, flipped=asked.flipped, seed=seed)
+    worse = degraded(replace(worse, normals=oriented.astype(np.float32)), of_normals)
+    return cloud_of(worse, model, given)

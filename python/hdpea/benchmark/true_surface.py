@@ -1,0 +1,48 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Models whose surface is known: a closed mesh."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+from hdpea.benchmark.clouds import make_cloud
+from hdpea.benchmark.drawing import Scene, SurfaceScene
+from hdpea.benchmark.methods import Cloud
+from hdpea.benchmark.model import Model
+from hdpea.benchmark.rendering import compare_renderings
+from hdpea.benchmark.suite import SuiteInput
+from hdpea.dataset.surface_file import read_surface
+from hdpea.evaluation.truth import Truth, truth_of_mesh
+from hdpea.reading.triangle_mesh import TriangleMesh
+
+
+@dataclass
+class TrueSurface(Model):
+    """A true mesh; points are drawn of it, or it is scanned."""
+
+    @cached_property
+    def surface(self) -> TriangleMesh:
+        """The closed surface, in world units."""
+        return read_surface(self.source.path)
+
+    @cached_property
+    def truth(self) -> Truth:
+        """The surface as results are measured against it."""
+        return truth_of_mesh(*self.surface, self.measuring)
+
+    def cloud(self, given: SuiteInput) -> Cloud:
+        """Draw points of the surface, or scan it; with true normals, unless they are to be estimated."""
+        return make_cloud(self.surface, self.name, given, self.options.seed)
+
+    def scene(self) -> Scene:
+        """Return the surface, to be drawn."""
+        return SurfaceScene.of(self.surface)
+
+    def scores(self, mesh: TriangleMesh) -> dict[str, Any]:
+        """Measure a result; if the suite asks for it, by pictures under one light, too."""
+        scores = super().scores(mesh)
+        if self.options.rendered:
+            scores["rendering"] = compare_renderings(self.surface, mesh)
+        return scores
