@@ -22,9 +22,9 @@ from hdpea.benchmark.drawing import ERROR_COLORS, RED_FROM, error_colors, subdiv
 from hdpea.benchmark.means import COLUMNS, FLOOR, best_of, error_by_size, means_of
 from hdpea.benchmark.nearest import nearest_sentences
 from hdpea.benchmark.provenance import commit
-from hdpea.benchmark.record import Record, key_of, read_record, write_record
+from hdpea.benchmark.record import RMS, Record, key_of, read_record, write_record
 from hdpea.benchmark.results import curves_of, results_in_markdown
-from hdpea.benchmark.suite import Quoted, Suite, SuiteInput, SuiteMethod, SuiteOptions
+from hdpea.benchmark.suite import HELD_OUT, Quoted, Suite, SuiteInput, SuiteMethod, SuiteOptions
 from hdpea.benchmark.tables import markdown_table, write_csv
 from hdpea.dataset.options import DegradationOptions, SampleOptions, ScanOptions
 from hdpea.triangles import mesh_area
@@ -36,6 +36,9 @@ SUITE = Suite(
     (SuiteInput("clean", SampleOptions(), ScanOptions(), DegradationOptions()),),
     (SuiteMethod("ours", "hdpea", {}), SuiteMethod("theirs", "poisson", {})),
     (Quoted("far away", "table 7", vertices=5180, chamfer=0.496),),
+)
+EXACT_CD, CD = (
+    next(i for i, each in enumerate(COLUMNS) if each.title == title) for title in ("exact CD (1e-5)", "CD (1e-5)")
 )
 
 
@@ -65,21 +68,21 @@ RECORDS = [
 def test_means_are_over_what_every_method_finished() -> None:
     ours, theirs, floor = means_of(RECORDS, SUITE, "clean", 100)
     assert (ours.finished, ours.tried, theirs.finished, theirs.tried) == (2, 2, 1, 2)
-    assert (ours.values[1], theirs.values[1]) == (1e-5, 3e-5)
+    assert (ours.values[EXACT_CD], theirs.values[EXACT_CD]) == (1e-5, 3e-5)
     assert theirs.times[0] == 2.0
-    assert (floor.method, floor.values[4]) == (FLOOR, 1e-6)
+    assert (floor.method, floor.values[CD]) == (FLOOR, 1e-6)
 
 
 def test_a_method_that_finished_nothing_does_not_take_the_models_from_the_others() -> None:
     ours, theirs, _ = means_of(RECORDS, SUITE, "clean", 1000)
-    assert (ours.finished, ours.values[1]) == (2, 1e-6)
+    assert (ours.finished, ours.values[EXACT_CD]) == (2, 1e-6)
     assert theirs.finished == 0
     assert set(theirs.values) == {None}
 
 
 def test_the_best_are_bold_and_ties_are_not() -> None:
     means = means_of(RECORDS, SUITE, "clean", 100)
-    assert best_of(means) == {("ours", 1), ("ours", 4)}
+    assert best_of(means) == {("ours", EXACT_CD), ("ours", CD)}
     table = markdown_table(means).splitlines()
     assert table[2].startswith("| ours | 2/2 | 99 | **1.000** | 1.000 |")
     assert table[3].startswith("| theirs | 1/2 | 99 | 3.000 | 1.000 |")
@@ -95,6 +98,55 @@ def test_who_is_nearest_on_which_model_is_told() -> None:
     assert nearest_sentences(RECORDS, SUITE, "clean", 1000) == ""  # nobody to compare with
     many = [record(str(i), name, error) for i in range(9) for name, error in (("ours", 2e-5), ("theirs", 1e-5))]
     assert nearest_sentences(many, SUITE, "clean", 100).startswith("Smallest exact CD: theirs on 9 models.")
+
+
+def to_points(model: str, method: str, rms: float, chamfer: float, vertices: int = 100) -> Record:
+    """Return a record of a run whose truth is only points."""
+    samples = {"chamfer": chamfer, "f1": 0.9, "normal_consistency": None, "hausdorff": 0.01}
+    accuracy = {"chamfer": None, "hausdorff": None, "samples": samples, "to_result": {"rms": rms, "max": 10 * rms}}
+    scores = {"topology": {"vertices": vertices - 1}, "accuracy": {"longest_side": {**accuracy, "floor": None}}}
+    return Record(model, "clean", method, vertices, "key", scores=scores)
+
+
+TO_POINTS = [
+    to_points("a", "ours", 1e-3, 9e-5),
+    to_points("a", "theirs", 2e-3, 8e-5),
+    to_points("a", "ours", 5e-4, 5e-5, 1000),
+    to_points("a", "theirs", 1e-3, 6e-5, 1000),
+]
+
+
+def test_where_the_truth_is_points_their_distances_are_shown_and_ranked_by() -> None:
+    table = markdown_table(means_of(TO_POINTS, SUITE, "clean", 100))
+    titles, _, ours, theirs = table.splitlines()  # and no floor
+    assert "| vertices | exact rms (1e-2) | exact max (1e-2) | CD (1e-5) |" in titles
+    assert "| 99 | **0.100** | **1.000** | 9.000 |" in ours
+    assert "| 99 | 0.200 | 2.000 | **8.000** |" in theirs
+    assert (
+        nearest_sentences(TO_POINTS, SUITE, "clean", 100) == "Smallest exact rms: ours on a. Smallest CD: theirs on a."
+    )
+    assert list(curves_of(SUITE, TO_POINTS)) == ["curves-1-rms", "curves-1-max"]
+    assert TO_POINTS[0].score(*RMS) == 1e-3
+
+
+def test_where_the_surface_is_known_one_way_is_not_shown() -> None:
+    accuracy = {**RECORDS[0].scores["accuracy"]["longest_side"], "to_result": {"rms": 1.0, "max": 2.0}}
+    both = [replace(each, scores={**each.scores, "accuracy": {"longest_side": accuracy}}) for each in RECORDS[:3]]
+    table = markdown_table(means_of(both, SUITE, "clean", 100))
+    assert "exact CD" in table
+    assert "rms" not in table
+    assert "rms" not in nearest_sentences(both, SUITE, "clean", 100)
+    assert not [name for name in curves_of(SUITE, both) if "rms" in name]
+
+
+def test_what_the_truth_is_is_said_where_it_is_points() -> None:
+    held_out = replace(SUITE, options=replace(SUITE.options, truth=HELD_OUT))
+    told = results_in_markdown(held_out, TO_POINTS, {})
+    assert "which no method was given" in told
+    assert "box of the truth" in told
+    told = results_in_markdown(SUITE, RECORDS, {})
+    assert "no method was given" not in told
+    assert "the true surface's box" in told
 
 
 def test_the_page_of_results_says_all_of_it() -> None:

@@ -139,6 +139,9 @@ def test_the_suites_that_come_with_hdpea_are_in_order(name: str) -> None:
         ("{model}", "model", "has no {model}"),
         ('source = "table 1"', 'from = "table 1"', "unknown key 'from'"),
         ('title = "all of it"', "title = all", "is not TOML"),
+        ("points = 2_000", "truth = 'guessed'", "truth is one of mesh, held_out"),
+        ("points = 2_000", "truth = 'held_out'", "'scan' is of kind 'scan'"),
+        ("points = 2_000", "truth = 'held_out'\nrendered = true", "cannot be rendered"),
     ],
 )
 def test_what_is_wrong_is_said(old: str, new: str, told: str, tmp_path: Path) -> None:

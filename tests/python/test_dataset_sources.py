@@ -13,8 +13,9 @@ import numpy as np
 import pytest
 import trimesh
 from dataset_standins import open_mesh
+from files import WITH_NORMALS
 
-from hdpea.dataset.sources import find_meshes
+from hdpea.dataset.sources import find_clouds, find_meshes
 from hdpea.dataset.surface_file import read_surface
 from hdpea.errors import CannotReconstruct, UnreadableInput, UsageError
 
@@ -87,6 +88,25 @@ def test_a_single_file_is_a_source(tmp_path: Path) -> None:
     trimesh.creation.box().export(tmp_path / "box.ply")
     (found,) = find_meshes(str(tmp_path / "box.ply"))
     assert (found.name, found.source, found.licence) == ("box", "box.ply", "unstated")
+
+
+def test_clouds_are_found_in_every_format_that_is_read(tmp_path: Path) -> None:
+    for name, content in WITH_NORMALS.items():
+        (tmp_path / name).write_bytes(content)
+    found = find_clouds(str(tmp_path))
+    assert {each.source for each in found} == WITH_NORMALS.keys() - {"no_extension"}
+    assert [each.name for each in found] == sorted(each.name for each in found)
+    assert len({each.name for each in found}) == len(found)
+    (single,) = find_clouds(str(tmp_path / "plain.xyz"))
+    assert (single.name, single.path) == ("plain", tmp_path / "plain.xyz")
+
+
+def test_no_clouds_are_told(tmp_path: Path) -> None:
+    (tmp_path / "mesh.stl").touch()
+    with pytest.raises(UnreadableInput, match="no point clouds in"):
+        find_clouds(str(tmp_path))
+    with pytest.raises(UnreadableInput, match="no file or folder"):
+        find_clouds(str(tmp_path / "absent"))
 
 
 @pytest.fixture

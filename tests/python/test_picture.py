@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from hdpea import picture
 from hdpea.errors import UsageError
-from hdpea.picture import Camera, check_drawing, draw_mesh
+from hdpea.picture import Camera, check_drawing, draw_mesh, draw_points
 from hdpea.viewpoint import choose_view
 
 Mesh = tuple[NDArray[np.float64], NDArray[np.int64]]
@@ -71,6 +71,33 @@ def test_a_shape_stands_on_its_base(up: int) -> None:
 def test_an_open_scan_is_seen_from_the_side_it_faces() -> None:
     vertices = np.array([[0.0, 0, 0], [0, 0, 1], [1, 0, 0]])  # a wall facing y
     assert choose_view(vertices, np.array([[0, 1, 2]]))[2, 1] > 0.7
+
+
+@pytest.mark.slow
+def test_points_are_drawn_in_their_colours_where_a_mesh_of_them_would_be(tmp_path: Path) -> None:
+    vertices, faces = box((1, 1, 1))
+    camera = Camera.before(vertices, faces)
+    shown = np.random.default_rng(0).random((20_000, 3)) - 0.5
+    draw_points(tmp_path / "points.png", shown, np.tile(np.uint8([[10, 200, 30]]), (20_000, 1)), (200, 150), camera)
+    draw_mesh(tmp_path / "mesh.png", vertices, faces, size=(200, 150), camera=camera)
+    from PIL import Image
+
+    points, mesh = (
+        np.asarray(Image.open(tmp_path / name).convert("RGB"), float) for name in ("points.png", "mesh.png")
+    )
+    covered = [(pixels < 250).any(axis=2) for pixels in (points, mesh)]
+    assert (covered[0] & covered[1]).sum() > 0.85 * (covered[0] | covered[1]).sum()
+    np.testing.assert_allclose(points[75, 100], [10, 200, 30], atol=2)
+
+
+def test_points_are_looked_at_as_their_mesh_is() -> None:
+    vertices = np.array([[0.0, 0, 0], [0, 0, 1], [1, 0, 0]])
+    mesh, points = (
+        Camera.before(vertices, np.array([[0, 1, 2]])),
+        Camera.before_points(vertices, np.tile([0.0, 1, 0], (3, 1))),
+    )
+    np.testing.assert_allclose(points.view_from_world, mesh.view_from_world, atol=1e-12)
+    np.testing.assert_allclose(points.to_view(vertices), mesh.to_view(vertices), atol=1e-12)
 
 
 def test_missing_pyvista_says_how_to_get_it(monkeypatch: pytest.MonkeyPatch) -> None:

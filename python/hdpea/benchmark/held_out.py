@@ -16,6 +16,7 @@ from hdpea.benchmark.suite import HELD_OUT, SuiteInput
 from hdpea.dataset.building import seed_of
 from hdpea.dataset.degradation import degraded
 from hdpea.dataset.options import DegradationOptions
+from hdpea.errors import CannotReconstruct
 from hdpea.evaluation.truth import Truth, truth_of_points
 from hdpea.frame import UnitFrame
 from hdpea.normals import oriented_surface
@@ -54,7 +55,15 @@ class HeldOut(Model):
 
 
 def halves_of(cloud: PointCloud, seed: int) -> tuple[PointCloud, PointCloud]:
-    """Return two halves of a cloud at random, each in random order; the second has the odd point."""
+    """Return two halves of a cloud at random, each in random order; the second has the odd point.
+
+    Raises
+    ------
+    CannotReconstruct
+        If there are no two points.
+    """
+    if len(cloud.points) < 2:
+        raise CannotReconstruct("The cloud is a single point.", "Half of its points are held out, as the truth.")
     rows = np.random.default_rng(seed).permutation(len(cloud.points))
     half = len(rows) // 2
     return cloud.at(rows[:half]), cloud.at(rows[half:])
@@ -84,5 +93,5 @@ def make_cloud_of_points(to_give: PointCloud, model: str, given: SuiteInput, see
     oriented = oriented_surface(worse.points.astype(np.float64), known).surface.normals
     # Last: what is oriented anew would not be flipped any more.
     of_normals = DegradationOptions(normal_noise=asked.normal_noise, flipped=asked.flipped, seed=seed)
-    worse = degraded(replace(worse, normals=oriented.astype(np.float32)), of_normals)
+    worse = degraded(replace(worse, estimated_normals=oriented.astype(np.float32)), of_normals)
     return cloud_of(worse, model, given)

@@ -14,6 +14,7 @@ EPILOG = """\b
 Examples:
   hdpea benchmark quick results/ --meshes meshes/
   hdpea benchmark sizes results/ --meshes meshes/ --models 5 --method hdpea
+  hdpea benchmark rooms results/ --meshes clouds/
   hdpea benchmark my_suite.toml results/
 
 \b
@@ -25,7 +26,7 @@ Exit codes: 0 ok, 2 usage or a library is missing, 3 no such suite or meshes,
 @click.command(cls=GroupedCommand, epilog=EPILOG, no_args_is_help=True, short_help="Compare methods on many models.")
 @click.argument("suite")
 @click.argument("output", metavar="OUT", type=click.Path(path_type=Path))
-@click.option("--meshes", cls=GroupedOption, help="folder of the true meshes, or thingi10k:ID,ID")
+@click.option("--meshes", cls=GroupedOption, help="folder of the true meshes (rooms: of clouds), or thingi10k:ID,ID")
 @click.option(
     "--method",
     "methods",
@@ -40,9 +41,10 @@ def command(
 ) -> None:
     """Run the methods of SUITE on points of true meshes, measure what they make, and compare it in OUT.
 
-    SUITE is quick, sampling, scans, robustness, normals, points, sizes, two_stage, roughness, large
-    or failure, or a TOML file of your own: inputs and how they are degraded, methods and their
-    options, numbers of vertices. OUT gets results.csv, results.md, index.html with all tables and
+    SUITE is quick, sampling, scans, robustness, normals, points, sizes, two_stage, roughness, large,
+    rooms (on real clouds, half of the points of which are held out as the truth) or failure, or a
+    TOML file of your own: inputs and how they are degraded, methods and their options, numbers of
+    vertices. OUT gets results.csv, results.md, index.html with all tables and
     pictures in it, and the points and meshes themselves.
 
     Each run has a process and a time limit of its own. What was finished before is kept: the same
