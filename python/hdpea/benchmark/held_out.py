@@ -88,10 +88,10 @@ def make_cloud_of_points(to_give: PointCloud, model: str, given: SuiteInput, see
     points = frame.to_unit(taken.points)
     from_file = np.zeros_like(points) if taken.normals is None else taken.normals
     asked = replace(given.degradation, seed=seed)
-    worse = degraded(bare_sample(points, points, from_file, frame), replace(asked, normal_noise=0.0, flipped=0.0))
+    worse = degraded(bare_sample(points, points, from_file, frame), asked)
     known = None if given.sample.estimate else worse.normals.astype(np.float64)
     oriented = oriented_surface(worse.points.astype(np.float64), known).surface.normals
-    # Last: what is oriented anew would not be flipped any more.
+    # What is asked for normals comes last: orienting those of the file would turn flipped ones back.
     of_normals = DegradationOptions(normal_noise=asked.normal_noise, flipped=asked.flipped, seed=seed)
     worse = degraded(replace(worse, estimated_normals=oriented.astype(np.float32)), of_normals)
     return cloud_of(worse, model, given)
