@@ -40,8 +40,8 @@ def command(
 ) -> None:
     """Run the methods of SUITE on points of true meshes, measure what they make, and compare it in OUT.
 
-    SUITE is quick, sampling, scans, robustness, normals, points, sizes, two_stage, roughness, large
-    or failure, or a TOML file of your own: inputs and how they are degraded, methods and their
+    SUITE is quick, sampling, scans, robustness, normals, points, sizes, two_stage, roughness, large,
+    pmei or failure, or a TOML file of your own: inputs and how they are degraded, methods and their
     options, numbers of vertices. OUT gets results.csv, results.md, index.html with all tables and
     pictures in it, and the points and meshes themselves.
 
