@@ -24,7 +24,7 @@ PACKAGE_SOURCES := CMakeLists.txt pyproject.toml $(shell find src python -type f
 CPP_SOURCES := $(shell find src tests/cpp -name '*.[ch]pp')
 
 .NOTPARALLEL:
-.PHONY: help setup demo test lint format core sanitize pytest bench-setup results clean debian
+.PHONY: help setup demo test lint format core sanitize pytest bench-setup results losses trained-losses clean debian
 
 help:
 	@echo "make demo      reconstruct two real scans into $(DEMO)/"
@@ -70,11 +70,21 @@ bench-setup: setup
 	$(BIN)/pip install -qq -c $(CONSTRAINTS) --group bench
 	$(BIN)/pip install -qq -c $(CONSTRAINTS) --no-build-isolation '.[benchmark,dataset,picture]'
 
-# One suite into docs/results/SUITE/: make results SUITE=quick MESHES=meshes/ [MODELS="--models 5"]
+# One suite into docs/results/: make results SUITE=quick MESHES=meshes/ [MODELS="--models 5"]
+results: RESULTS = results/$(basename $(notdir $(SUITE)))
 results: bench-setup
-	$(BIN)/hdpea benchmark $(SUITE) build/results/$(SUITE) --meshes $(MESHES) $(MODELS)
-	@mkdir -p docs/results/$(SUITE)
-	find build/results/$(SUITE) -maxdepth 1 \( -name results.md -o -name "*.svg" \) -exec cp -t docs/results/$(SUITE) {} +
+	$(BIN)/hdpea benchmark $(SUITE) build/$(RESULTS) --meshes $(MESHES) $(MODELS)
+	@mkdir -p docs/$(RESULTS)
+	find build/$(RESULTS) -maxdepth 1 \( -name results.md -o -name "*.svg" \) -exec cp -t docs/$(RESULTS) {} +
+
+# Hours: make losses TRAINING=meshes/train MESHES=meshes/val; goes on where it was stopped.
+losses: SUITE = benchmarks/losses.toml
+losses: trained-losses results
+
+trained-losses: bench-setup
+	$(BIN)/hdpea dataset build $(TRAINING) build/training
+	$(BIN)/hdpea dataset build $(MESHES) build/validation
+	$(BIN)/python benchmarks/training_ablation.py build/training build/validation build/losses --steps 500
 
 # ---- demo ------------------------------------------------------------------------------------------
 

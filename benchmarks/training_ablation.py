@@ -4,8 +4,9 @@
     python benchmarks/training_ablation.py TRAINING VALIDATION OUT [--steps 1500] [--stem] [--picture DIR]
 
 TRAINING and VALIDATION are folders that `hdpea dataset build` made. Each loss trains a network of its own in a folder
-of OUT, so a run that was stopped goes on where it was; then the clouds of VALIDATION are reconstructed from what each
-has learned, alone and settled by the solver. The paper's are ndhde-* and point-* (its Table 4). Prints Markdown.
+of OUT, so a run that was stopped goes on where it was, and its weights go beside that, for losses.toml. Then the clouds
+of VALIDATION are reconstructed from what each has learned, alone and settled by the solver. The paper's are ndhde-* and
+point-* (its Table 4). Prints Markdown.
 """
 
 from __future__ import annotations
@@ -20,6 +21,7 @@ from hdpea.dataset.loading import Dataset
 from hdpea.network.options import CONFIGURATIONS
 from hdpea.network.settling import ROUNDS
 from hdpea.network.transformer import PointTransformer
+from hdpea.network.weights import write_weights
 from hdpea.training.loop import train
 from hdpea.training.options import LOSSES, PRESETS, LossOptions
 from hdpea.training.validation import mesh_of_sample, validate
@@ -65,6 +67,7 @@ def main(
             folder = out / name.replace(" ", "_")
             folder.mkdir(parents=True, exist_ok=True)
             trained = train(samples, None, folder, network, options).averaged_network()
+        write_weights(out / f"{name.replace(' ', '_')}.safetensors", trained)
         networks.append(trained)
         cells = []
         for rounds in ROUNDS_AFTER.values():

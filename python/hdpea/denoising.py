@@ -3,11 +3,9 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 from hdpea import _core
 from hdpea.errors import core_errors_translated
-from hdpea.noise import roughness_of
+from hdpea.noise import Roughness, roughness_of
 from hdpea.normals import OrientedSurface
 from hdpea.options import ROUGH, DenoisingOptions
 from hdpea.progress import ProgressCallback, tell
@@ -15,7 +13,18 @@ from hdpea.report import Choice
 from hdpea.surface import Surface
 
 ROUNDS = 2
-"""The second fits along the normals that the first one found, and with the neighbours that they tell."""
+"""The second fits along the normals that the first one found, and with the weights that they give."""
+
+FEWEST, MOST = 80, 320
+"""Neighbours that are fitted: with more, less noise is left, and less of what bends."""
+
+NEIGHBORS_OF_NOISE, STEP = 160, 40
+"""Neighbours for noise of one spacing; they go with its square, so that as much of it is left.
+
+In steps, lest it matter which points its measure has looked at."""
+
+SATURATED = 0.9
+"""Roughness that no noise exceeds, in spacings: seen by few neighbours, a thick shell is a ball full of points."""
 
 
 def denoised(
@@ -24,37 +33,50 @@ def denoised(
     """Return the surface with its points moved to where their neighbours show it and the normals there, and why.
 
     Moving least squares (Alexa et al., 2003): each point is moved along its normal onto the quadric that fits its
-    neighbours of the same sheet, those of another direction counting less, so that edges stay. The points keep their
-    order and frame, and are always fitted as they were given: more rounds do not shrink the shape. Two sheets that
-    face the same way within the reach of the neighbours are drawn to each other.
+    neighbours, those of another direction counting less, so that edges and the far sides of walls stay. The points keep
+    their order and frame, and are always fitted as they were given: more rounds do not shrink the shape. Two sheets
+    that face the same way within the reach of the neighbours are drawn to each other.
 
     With ``denoise="none"``, and where ``"auto"`` finds the points smooth, the surface is returned as it is.
     """
-    options, choices = _chosen(oriented, options)
     surface = oriented.surface
     if options.denoise == "none":
+        return surface, ()
+    roughness = roughness_of(surface.points_in_unit)
+    way, choices = _chosen(options, roughness, oriented.estimated > 0)
+    if way == "none":
         return surface, choices
+    count = options.denoise_neighbors
+    if count is None:
+        count = _neighbors(roughness.deviation)
+        choices += (Choice("denoise_neighbors", count, "points", str(roughness)),)
     places, normals = surface.points_in_unit, surface.normals
     with core_errors_translated():
-        nearest = _core.nearest_neighbors(surface.points_in_unit, options.denoise_neighbors)
+        # Not only those of the same sheet: noise lifts neighbours off it, and the weights see the far side of walls.
+        nearest = _core.nearest_neighbors(surface.points_in_unit, count)
         for number in range(ROUNDS):
             tell(progress, "denoising", number / ROUNDS)
-            neighbors = _core.sheet_neighbors(surface.points_in_unit, normals, nearest)
-            moved = _core.moving_least_squares(places, normals, surface.points_in_unit, neighbors)
+            moved = _core.moving_least_squares(places, normals, surface.points_in_unit, nearest)
             places, normals = moved.points, moved.normals
     tell(progress, "denoising", 1)
     return Surface.of(surface.frame, places, normals), choices
 
 
-def _chosen(oriented: OrientedSurface, options: DenoisingOptions) -> tuple[DenoisingOptions, tuple[Choice, ...]]:
-    """Return the options with a way of denoising in place of ``auto``, and why it is that one.
+def _neighbors(roughness: float) -> int:
+    """Return how many neighbours to fit to points so rough, in spacings."""
+    # Within 15 % of the standard deviation of noise on planes and spheres, up to two spacings.
+    noise = roughness / max(1 - (roughness / SATURATED) ** 4, 0.1)
+    return max(FEWEST, min(STEP * round(NEIGHBORS_OF_NOISE * noise**2 / STEP), MOST))
+
+
+def _chosen(options: DenoisingOptions, roughness: Roughness, estimated: bool) -> tuple[str, tuple[Choice, ...]]:
+    """Return the way of denoising, and why if it was chosen.
 
     Estimated normals err where walls are thin, and the fit parts their sides; given ones do not, and are only blurred.
     """
     if options.denoise != "auto":
-        return options, ()
-    roughness = roughness_of(oriented.surface.points_in_unit)
-    way = "mls" if (roughness.deviation if oriented.estimated else roughness.noise) > ROUGH else "none"
+        return options.denoise, ()
+    way = "mls" if (roughness.deviation if estimated else roughness.noise) > ROUGH else "none"
     kind = "" if roughness.like_noise else ", though not as if by noise"
     why = f"{roughness}{kind}; mls mends more than it blurs from {ROUGH:g} on"
-    return replace(options, denoise=way), (Choice("denoise", way, "", why),)
+    return way, (Choice("denoise", way, "", why),)

@@ -81,9 +81,23 @@ def peak_resident_bytes() -> int:
     try:
         status = _STATUS.read_text()
     except OSError:
-        unit = 1 if sys.platform == "darwin" else 1024
-        return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * unit
+        return _largest_bytes(resource.RUSAGE_SELF)
     return next(int(line.split()[1]) * 1024 for line in status.splitlines() if line.startswith("VmHWM"))
+
+
+def cpu_seconds() -> float:
+    """Return the processor time of this process, all threads together, and of programs it ran that have ended."""
+    programs = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return time.process_time() + programs.ru_utime + programs.ru_stime
+
+
+def peak_of_programs_bytes() -> int:
+    """Return the peak resident memory of the largest program that this process ran and that has ended."""
+    return _largest_bytes(resource.RUSAGE_CHILDREN)
+
+
+def _largest_bytes(who: int) -> int:
+    return resource.getrusage(who).ru_maxrss * (1 if sys.platform == "darwin" else 1024)
 
 
 def _reset_peak() -> None:

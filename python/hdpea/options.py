@@ -101,7 +101,9 @@ class DenoisingOptions(Checked):
         f"points are more than {ROUGH:g} of their spacing off a smooth surface",
         choices=("auto", "none", "mls"),
     )
-    denoise_neighbors: int = option(80, "mls: nearest points that it is fitted to", minimum=6)
+    denoise_neighbors: int | None = option(
+        None, "mls: nearest points that it is fitted to; default: from 80 to 320, by how rough they are", minimum=6
+    )
 
 
 @dataclass(frozen=True)

@@ -25,7 +25,7 @@ struct SurfacePlaces {
 /// @param places     (n, 3) one near each point: at first the points themselves, then the result of an earlier call
 /// @param normals    (n, 3) unit, consistently oriented, at the places
 /// @param points     (n, 3) what is fitted
-/// @param neighbors  (n, k) of each point, of the same sheet, -1 pads; the point itself counts as well
+/// @param neighbors  (n, k) of each point, -1 pads; the point itself counts as well
 SurfacePlaces moving_least_squares(const PointsRef& places, const PointsRef& normals, const PointsRef& points,
                                    const NeighborsRef& neighbors, const MovingLeastSquaresOptions& options = {});
 

@@ -30,27 +30,34 @@ struct Adaptor {
 class NearestSet {
  public:
   using DistanceType = double;
+  using Candidate = std::pair<double, Index>;
   explicit NearestSet(std::size_t k) : k_(k) { best_.reserve(k + 1); }
 
-  void clear() { best_.clear(); }
   bool full() const { return best_.size() == k_; }
   /// A little more than the k-th distance, since nanoflann passes on only what is strictly less.
   double worstDist() const {
     constexpr double infinity = std::numeric_limits<double>::infinity();
-    return full() ? std::nextafter(best_.back().first, infinity) : std::numeric_limits<double>::max();
+    return full() ? std::nextafter(best_.front().first, infinity) : std::numeric_limits<double>::max();
   }
   bool addPoint(double distance, Index index) {
-    const std::pair<double, Index> candidate{distance, index};
-    if (full() && candidate >= best_.back()) return true;
-    if (full()) best_.pop_back();
-    best_.insert(std::upper_bound(best_.begin(), best_.end(), candidate), candidate);
+    const Candidate candidate{distance, index};
+    if (full() && candidate >= best_.front()) return true;
+    best_.push_back(candidate);
+    std::push_heap(best_.begin(), best_.end());
+    if (best_.size() <= k_) return true;
+    std::pop_heap(best_.begin(), best_.end());
+    best_.pop_back();
     return true;
   }
-  const std::vector<std::pair<double, Index>>& best() const { return best_; }
+  /// The candidates from the best on; no more can be added then.
+  const std::vector<Candidate>& sorted() {
+    std::sort_heap(best_.begin(), best_.end());
+    return best_;
+  }
 
  private:
   std::size_t k_;
-  std::vector<std::pair<double, Index>> best_;
+  std::vector<Candidate> best_;  // a heap, the worst in front
 };
 
 using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Adaptor<double, Adaptor>, Adaptor, -1, Index>;
@@ -62,7 +69,7 @@ void search(const Tree& tree, const double* query, Index excluded, Row row) {
   NearestSet nearest(static_cast<std::size_t>(row.size()) + (excluded >= 0 ? 1 : 0));
   tree.findNeighbors(nearest, query, nanoflann::SearchParams());
   found.clear();
-  for (const auto& [distance, index] : nearest.best()) {
+  for (const auto& [distance, index] : nearest.sorted()) {
     if (index != excluded) found.push_back(index);
   }
   row.setConstant(-1);

@@ -8,15 +8,12 @@
 #include "clouds.hpp"
 #include "hdpea_cpp/errors.hpp"
 #include "hdpea_cpp/neighbors.hpp"
-#include "hdpea_cpp/sheets.hpp"
 
 namespace hdpea {
 namespace {
 
 SurfacePlaces denoised(const clouds::Cloud& cloud, Index neighbors = 40) {
-  const Neighbors nearest = nearest_neighbors(cloud.points, neighbors);
-  return moving_least_squares(cloud.points, cloud.normals, cloud.points,
-                              sheet_neighbors(cloud.points, cloud.normals, nearest));
+  return moving_least_squares(cloud.points, cloud.normals, cloud.points, nearest_neighbors(cloud.points, neighbors));
 }
 
 double largest(const Eigen::MatrixXd& difference) { return difference.array().abs().maxCoeff(); }

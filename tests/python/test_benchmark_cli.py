@@ -188,6 +188,7 @@ def test_normals_are_the_true_ones_unless_they_are_to_be_estimated() -> None:
         ("poisson", {"depth": 5, "reduce": "mmg"}, "mmgpy"),
         ("ball_pivoting", {"reduce": "quadric"}, "pymeshlab"),
         ("co3ne", {"reduce": "cvt"}, "geogram"),
+        ("advancing_front", {"reduce": "fast"}, "CGAL"),
     ],
 )
 def test_methods_make_meshes_of_the_wanted_size(

@@ -46,6 +46,11 @@ name = "made elsewhere"
 method = "folder"
 path = "else/{model}.ply"
 
+[[method]]
+name = "a program"
+method = "command"
+run = "program {points} {mesh} {vertices}"
+
 [[quoted]]
 name = "a method"
 source = "table 1"
@@ -74,11 +79,13 @@ def test_a_suite_says_what_to_run(tmp_path: Path) -> None:
     assert (scan.sample.kind, scan.sample.estimate, scan.degradation.noise) == ("scan", True, 0.003)
     assert (scan.scan.views, scan.scan.sensor, scan.scan.points) == (3, "turntable", 3000)
     assert clean.scan.points == 2000
-    ours, other = suite.methods
+    ours, other, program = suite.methods
     assert (ours.name, other.name, other.method) == ("hdpea", "made elsewhere", "folder")
     assert ours.options().refinement.refine is False
     assert ours.options().embedding.curvature_radius == Length(1, percent=True)
     assert other.options().path == str(tmp_path / "else" / "{model}.ply")
+    assert program.options().folder == str(tmp_path)
+    assert program.options().words("p.ply", "m.ply", 500) == ["program", "p.ply", "m.ply", "500"]
     assert suite.quoted[0].chamfer == 0.5
 
 
@@ -105,7 +112,7 @@ def test_methods_can_be_left_out(tmp_path: Path, monkeypatch: pytest.MonkeyPatch
         read_suite(path)
     with pytest.raises(UsageError, match="no method 'yours'") as caught:
         read_suite(path, ["yours"])
-    assert "'hdpea', 'made elsewhere'" in caught.value.hint
+    assert "'hdpea', 'made elsewhere', 'a program'" in caught.value.hint
 
 
 @pytest.mark.parametrize("name", shipped_suites())
@@ -137,6 +144,10 @@ def test_the_suites_that_come_with_hdpea_are_in_order(name: str) -> None:
         ("refine = false", "refines = false", "no option 'refines'"),
         ('"1%"', '"one"', "'one' is not a length"),
         ("{model}", "model", "has no {model}"),
+        ("{points}", "points", "has no {points}"),
+        ("{mesh}", "mesh", "or no {mesh}"),
+        ("{vertices}", "{faces}", "cannot be filled in: 'faces'"),
+        ("{vertices}", "'", "cannot be filled in: No closing quotation"),
         ('source = "table 1"', 'from = "table 1"', "unknown key 'from'"),
         ('title = "all of it"', "title = all", "is not TOML"),
         ("points = 2_000", "truth = 'guessed'", "truth is one of mesh, held_out"),

@@ -4,7 +4,10 @@ from __future__ import annotations
 import math
 import multiprocessing
 import os
+import subprocess
 import time
+from contextlib import suppress
+from pathlib import Path
 
 import pytest
 
@@ -37,3 +40,22 @@ def test_who_stops_asking_ends_the_processes() -> None:
     next(outcomes)
     outcomes.close()
     assert multiprocessing.active_children() == []
+
+
+def test_programs_end_with_the_process_that_runs_them() -> None:
+    unusual = "3607.25"
+    (outcome,) = run_isolated(subprocess.check_call, [["sleep", unusual]], 1, 3)
+    assert outcome.failed == "It took longer than 3 s."
+    for _ in range(100):
+        if not running(unusual):
+            return
+        time.sleep(0.05)
+    raise AssertionError("The program runs on.")
+
+
+def running(argument: str) -> bool:
+    commands = []
+    for path in Path("/proc").glob("[0-9]*/cmdline"):
+        with suppress(OSError):  # it has just ended
+            commands.append(path.read_bytes())
+    return any(argument.encode() in command.split(b"\0") for command in commands)

@@ -55,17 +55,34 @@ def test_clean_points_stay_as_they_are(cloud: Callable[[int], clouds.Cloud]) -> 
 
 def test_noisy_points_are_denoised_unless_they_are_not_to_be() -> None:
     given = oriented(noisy(clouds.sphere(POINTS), 0.03))
-    made, (choice,) = denoised(given, DenoisingOptions())
+    made, (choice, count) = denoised(given, DenoisingOptions())
     np.testing.assert_array_equal(made.points_in_unit, denoised(given, MLS)[0].points_in_unit)
     assert choice.value == "mls"
     assert "0.39 spacings" in choice.why  # of noise of half a spacing
+    assert (count.name, count.value) == ("denoise_neighbors", 80)
     assert denoised(given, DenoisingOptions(denoise="none")) == (given.surface, ())
+
+
+@pytest.mark.parametrize(("std", "count"), [(0.005, 80), (0.06, 120), (0.1, 320)])
+def test_the_noisier_the_points_the_more_neighbors_are_fitted(std: float, count: int) -> None:
+    given = oriented(noisy(clouds.sphere(POINTS), std))
+    made, (choice,) = denoised(given, MLS)
+    assert choice.value == count
+    by_hand, choices = denoised(given, DenoisingOptions(denoise="mls", denoise_neighbors=count))
+    np.testing.assert_array_equal(made.points_in_unit, by_hand.points_in_unit)
+    assert choices == ()
+
+
+def test_noise_of_more_than_a_spacing_is_taken_away() -> None:
+    given = noisy(clouds.sphere(POINTS), 0.08)  # of points 0.065 apart
+    points, _ = after(given)
+    assert rms(np.linalg.norm(points, axis=1) - 1) < 0.25 * rms(np.linalg.norm(given[0], axis=1) - 1)
 
 
 @pytest.mark.parametrize(("estimated", "way"), [(False, "none"), (True, "mls")])
 def test_the_sides_of_a_thin_wall_are_parted_unless_normals_do_it(estimated: bool, way: str) -> None:
     wall = clouds.two_sheets(POINTS, spacings_apart=1, facing=-1)
-    _, (choice,) = denoised(oriented(wall, estimated), DenoisingOptions())
+    _, (choice, *_) = denoised(oriented(wall, estimated), DenoisingOptions())
     assert choice.value == way
     assert "not as if by noise" in choice.why
 

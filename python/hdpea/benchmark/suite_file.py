@@ -16,6 +16,9 @@ from hdpea.dataset.options import DegradationOptions, SampleOptions, ScanOptions
 from hdpea.errors import UnreadableInput, UsageError
 from hdpea.reading import read_bytes
 
+FROM_THE_SUITE = {"folder", "path", "weights"}
+"""Options of methods that name files from where the suite lies, as it names the folder of the meshes."""
+
 
 def shipped_suites() -> list[str]:
     """Return the names of the suites that come with hdpea."""
@@ -98,8 +101,10 @@ def _chosen(tables: Sequence[dict[str, Any]], only: Sequence[str], suite: str) -
 
 def _method(table: dict[str, Any], folder: Path) -> SuiteMethod:
     method = table.pop("method", "")
-    if "path" in table:
-        table["path"] = str(folder / table["path"])  # from where the suite lies, as the folder of the meshes
+    if method == "command":
+        table.setdefault("folder", ".")
+    for key in FROM_THE_SUITE & table.keys():
+        table[key] = str(folder / str(table[key]))
     name = str(table.pop("name", method))
     made = SuiteMethod(name, method, table)
     made.options()  # what is wrong with it is said before the first run

@@ -42,10 +42,10 @@ def command(
     """Run the methods of SUITE on points of true meshes, measure what they make, and compare it in OUT.
 
     SUITE is quick, sampling, scans, robustness, normals, points, sizes, two_stage, roughness, large,
-    rooms (on real clouds, half of the points of which are held out as the truth) or failure, or a
-    TOML file of your own: inputs and how they are degraded, methods and their options, numbers of
-    vertices. OUT gets results.csv, results.md, index.html with all tables and
-    pictures in it, and the points and meshes themselves.
+    pmei, rooms (real clouds, half of whose points are held out as the truth) or failure, or a TOML
+    file of your own: inputs and how they are degraded, methods and their options, numbers of
+    vertices. OUT gets results.csv, results.md, index.html with all tables and pictures in it, and
+    the points and meshes themselves.
 
     Each run has a process and a time limit of its own. What was finished before is kept: the same
     command continues a suite that was stopped. Rivals need pip install 'hdpea[benchmark]'.

@@ -9,6 +9,7 @@ import threading
 import time
 from collections import deque
 from collections.abc import Callable, Generator, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from multiprocessing import get_context, parent_process
 from multiprocessing.connection import Connection, wait
@@ -106,7 +107,11 @@ class _Worker(Generic[Task, Result]):
         return Outcome(self.index, self.seconds(), result, failed)
 
     def end(self) -> None:
-        """End the process, whatever it is doing."""
+        """End the process, whatever it is doing, and the programs it runs."""
+        if self._process.pid is not None:
+            # Without a group of its own yet, it has run no program yet either.
+            with suppress(ProcessLookupError):
+                os.killpg(self._process.pid, signal.SIGKILL)
         self._process.kill()
         self._process.join()
         self.connection.close()
@@ -119,6 +124,7 @@ def _ending(exit_code: int | None) -> str:
 def _serve(connection: Connection, function: Callable[[Task], Result]) -> None:
     # Ctrl-C is for the process that started this one; when that has ended, nobody waits for results.
     signal.signal(signal.SIGINT, signal.SIG_IGN)
+    os.setpgrp()  # programs that it runs are to end with it
     threading.Thread(target=_end_with_parent, daemon=True).start()
     while True:
         try:
@@ -141,4 +147,4 @@ def _end_with_parent() -> None:
     parent = parent_process()
     if parent is not None:
         wait([parent.sentinel])
-        os._exit(1)
+        os.killpg(0, signal.SIGKILL)

@@ -19,8 +19,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hdpea.benchmark.methods.options import (
+    AdvancingFrontOptions,
     BallPivotingOptions,
     Co3neOptions,
+    CommandOptions,
     FolderOptions,
     PoissonOptions,
     ReducedOptions,
@@ -70,9 +72,11 @@ GEOGRAM = ("geogram", "hdpea.benchmark.methods.geogram")
 METHODS = {
     "hdpea": Method("ours", Options, ("torch",)),
     "poisson": Method("poisson", PoissonOptions, ("pymeshlab",)),
+    "advancing_front": Method("advancing_front", AdvancingFrontOptions, ("CGAL",)),
     "ball_pivoting": Method("ball_pivoting", BallPivotingOptions, ("pymeshlab",)),
     "co3ne": Method("co3ne", Co3neOptions, GEOGRAM),
     "folder": Method("folder", FolderOptions),
+    "command": Method("command", CommandOptions),
 }
 LIBRARIES_OF_REDUCTION = {
     "fast": ("fast_simplification",),

@@ -3,10 +3,13 @@
 
 from __future__ import annotations
 
+import shlex
+import sys
 from dataclasses import dataclass
 
 from hdpea.errors import UsageError
 from hdpea.options import Checked, option
+from hdpea.reading.triangle_mesh import SURFACE_FORMATS
 
 TOLERANCE = 0.01
 """Share of the wanted vertices by which a mesh may miss them, as for hdpea itself."""
@@ -42,6 +45,11 @@ class PoissonOptions(ReducedOptions):
 
 
 @dataclass(frozen=True)
+class AdvancingFrontOptions(ReducedOptions):
+    """Advancing front (Cohen-Steiner and Da, 2004), by CGAL."""
+
+
+@dataclass(frozen=True)
 class BallPivotingOptions(ReducedOptions):
     """The ball-pivoting algorithm (Bernardini et al., 1999), by MeshLab."""
 
@@ -69,3 +77,32 @@ class FolderOptions(Checked):
         super().__post_init__()
         if "{model}" not in self.path:
             raise UsageError("The path of a folder of meshes has no {model} in it.", "Such as ndc/{model}.obj")
+
+
+@dataclass(frozen=True)
+class CommandOptions(Checked):
+    """Any program."""
+
+    run: str = option(
+        "", "the program and its arguments, with {points} (a PLY file) and {mesh} in it; {vertices}, {python} may be"
+    )
+    format: str = option(".ply", "of the mesh it writes", choices=SURFACE_FORMATS)
+    folder: str = option("", "where it runs; from where the suite lies, and that folder itself by default")
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        if "{points}" not in self.run or "{mesh}" not in self.run:
+            raise UsageError(
+                "The command has no {points} or no {mesh} in it.", "Such as PoissonRecon --in {points} --out {mesh}"
+            )
+        self.words("", "", 0)
+
+    def words(self, points: str, mesh: str, vertices: int) -> list[str]:
+        """Return the program and its arguments for files and a number of vertices, split as a shell would."""
+        filled = {"points": points, "mesh": mesh, "vertices": vertices, "python": sys.executable}
+        try:
+            return [word.format(**filled) for word in shlex.split(self.run)]
+        except (KeyError, IndexError, ValueError) as error:
+            raise UsageError(
+                f"The command {self.run!r} cannot be filled in: {error}.", f"Known are {', '.join(filled)}, in braces."
+            ) from error

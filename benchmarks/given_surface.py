@@ -1,0 +1,21 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The points that a suite gives to a program."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+
+from hdpea.frame import UnitFrame
+from hdpea.reading import read_points
+from hdpea.surface import Surface
+
+
+def given_surface(points: Path) -> Surface:
+    """Read points that bring their normals; a program of a benchmark takes these as they are."""
+    cloud = read_points(points)
+    if cloud.normals is None:
+        raise click.UsageError("The points have no normals.")
+    frame = UnitFrame.around(cloud.points)
+    return Surface.of(frame, frame.to_unit(cloud.points), cloud.normals)
