@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Meshes of one thing in one picture."""
+"""Meshes of one thing in one picture, such as a suite's of one model.
+
+    python benchmarks/side_by_side.py build/results/tangents/meshes/clean/adis16480/*.ply docs/tangents.png
+"""
 
 from __future__ import annotations
 
@@ -7,11 +10,13 @@ from collections.abc import Sequence
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
+import click
 import numpy as np
 from numpy.typing import NDArray
 from PIL import Image
 
 from hdpea.picture import Camera, draw_mesh
+from hdpea.reading.triangle_mesh import read_triangle_mesh
 
 PANEL = (320, 320)
 """Width and height of each, in pixels."""
@@ -32,3 +37,15 @@ def draw_side_by_side(path: Path, meshes: Sequence[tuple[NDArray[np.float64], ND
                 row.paste(drawn, (place * PANEL[0], 0))
     path.parent.mkdir(parents=True, exist_ok=True)
     row.quantize(COLORS).save(path, optimize=True)
+
+
+@click.command()
+@click.argument("meshes", nargs=-1, required=True, type=click.Path(exists=True, path_type=Path))
+@click.argument("picture", type=click.Path(path_type=Path))
+def main(*, meshes: tuple[Path, ...], picture: Path) -> None:
+    """Draw MESHES from left to right in PICTURE, all seen as the first one is."""
+    draw_side_by_side(picture, [read_triangle_mesh(each) for each in meshes])
+
+
+if __name__ == "__main__":
+    main()
