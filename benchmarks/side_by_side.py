@@ -2,6 +2,8 @@
 """Meshes of one thing in one picture, such as a suite's of one model.
 
     python benchmarks/side_by_side.py build/results/tangents/meshes/clean/adis16480/*.ply docs/tangents.png
+
+The first one says from where all are seen.
 """
 
 from __future__ import annotations
