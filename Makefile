@@ -33,6 +33,7 @@ help:
 	@echo "make core      the C++ core: build with warnings as errors, run its tests"
 	@echo "make sanitize  the same under the address and undefined-behaviour sanitizers"
 	@echo "make pytest    the Python tests, on the installed package"
+	@echo "make results   one suite of benchmarks, see docs/benchmark.md; make losses trains for one"
 	@echo "make setup     Debian packages, $(VENV)/, the package in it"
 	@echo "make format    let ruff and clang-format rewrite the sources"
 	@echo "make clean     remove build/, $(VENV)/ and $(DEMO)/"

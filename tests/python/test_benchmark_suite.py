@@ -17,7 +17,8 @@ from hdpea.dataset.surface_file import read_surface
 from hdpea.errors import UnreadableInput, UsageError
 from hdpea.lengths import Length
 
-DOCS = (Path(__file__).parents[2] / "docs" / "benchmark.md").read_text()
+ROOT = Path(__file__).parents[2]
+DOCS = (ROOT / "docs" / "benchmark.md").read_text()
 
 SUITE = """
 title = "all of it"
@@ -122,6 +123,16 @@ def test_the_suites_that_come_with_hdpea_are_in_order(name: str) -> None:
     assert "hdpea" in [method.method for method in suite.methods]
     assert f"| `{name}` |" in DOCS
     assert re.search(rf"\b{name}\b", str(command.help))
+
+
+@pytest.mark.parametrize("path", sorted((ROOT / "benchmarks").glob("*.toml")), ids=lambda path: path.stem)
+def test_the_suites_of_the_repository_are_in_order(path: Path) -> None:
+    suite = read_suite(str(path))
+    assert suite.options.title
+    assert f"| `{path.name}` |" in DOCS
+    for method in suite.methods:
+        if method.method == "command":
+            assert (path.parent / method.options().words("points", "mesh", 5)[1]).is_file()
 
 
 @pytest.mark.parametrize(
