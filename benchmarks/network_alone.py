@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Reconstruct from what a network says, without the solver after it: what losses.toml compares networks by.
+"""Reconstruct from what a network says, without the solver after it.
 
-python benchmarks/network_alone.py POINTS MESH VERTICES --weights FILE
+    python benchmarks/network_alone.py POINTS MESH VERTICES --weights FILE
+
+So losses.toml compares networks.
 """
 
 from __future__ import annotations

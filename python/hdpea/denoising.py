@@ -7,16 +7,13 @@ from hdpea import _core
 from hdpea.errors import core_errors_translated
 from hdpea.noise import Roughness, roughness_of
 from hdpea.normals import OrientedSurface
-from hdpea.options import ROUGH, DenoisingOptions
+from hdpea.options import FEWEST_FITTED, MOST_FITTED, ROUGH, DenoisingOptions
 from hdpea.progress import ProgressCallback, tell
 from hdpea.report import Choice
 from hdpea.surface import Surface
 
 ROUNDS = 2
 """The second fits along the normals that the first one found, and with the weights that they give."""
-
-FEWEST, MOST = 80, 320
-"""Neighbours that are fitted: with more, less noise is left, and less of what bends."""
 
 NEIGHBORS_OF_NOISE, STEP = 160, 40
 """Neighbours for noise of one spacing; they go with its square, so that as much of it is left.
@@ -66,7 +63,7 @@ def _neighbors(roughness: float) -> int:
     """Return how many neighbours to fit to points so rough, in spacings."""
     # Within 15 % of the standard deviation of noise on planes and spheres, up to two spacings.
     noise = roughness / max(1 - (roughness / SATURATED) ** 4, 0.1)
-    return max(FEWEST, min(STEP * round(NEIGHBORS_OF_NOISE * noise**2 / STEP), MOST))
+    return max(FEWEST_FITTED, min(STEP * round(NEIGHBORS_OF_NOISE * noise**2 / STEP), MOST_FITTED))
 
 
 def _chosen(options: DenoisingOptions, roughness: Roughness, estimated: bool) -> tuple[str, tuple[Choice, ...]]:

@@ -90,6 +90,10 @@ class NormalOptions(Checked):
 ROUGH = 0.15
 """Roughness, in spacings of the points, from which moving least squares mends more than it blurs."""
 
+FEWEST_FITTED, MOST_FITTED = 80, 320
+"""Neighbours that moving least squares fits, by how rough the points are: with more, less noise is left, and less of
+what bends."""
+
 
 @dataclass(frozen=True)
 class DenoisingOptions(Checked):
@@ -102,7 +106,10 @@ class DenoisingOptions(Checked):
         choices=("auto", "none", "mls"),
     )
     denoise_neighbors: int | None = option(
-        None, "mls: nearest points that it is fitted to; default: from 80 to 320, by how rough they are", minimum=6
+        None,
+        f"mls: nearest points that it is fitted to; default: from {FEWEST_FITTED} to {MOST_FITTED}, "
+        "by how rough they are",
+        minimum=6,
     )
 
 
