@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from hdpea import _core
 from hdpea.errors import core_errors_translated
-from hdpea.noise import Roughness, roughness_of
+from hdpea.noise import Roughness
 from hdpea.normals import OrientedSurface
 from hdpea.options import FEWEST_FITTED, MOST_FITTED, ROUGH, DenoisingOptions
 from hdpea.progress import ProgressCallback, tell
@@ -15,13 +15,10 @@ from hdpea.surface import Surface
 ROUNDS = 2
 """The second fits along the normals that the first one found, and with the weights that they give."""
 
-NEIGHBORS_OF_NOISE, STEP = 160, 40
+NEIGHBORS_OF_NOISE, STEP = 320, 40
 """Neighbours for noise of one spacing; they go with its square, so that as much of it is left.
 
 In steps, lest it matter which points its measure has looked at."""
-
-SATURATED = 0.9
-"""Roughness that no noise exceeds, in spacings: seen by few neighbours, a thick shell is a ball full of points."""
 
 
 def denoised(
@@ -39,13 +36,14 @@ def denoised(
     surface = oriented.surface
     if options.denoise == "none":
         return surface, ()
-    roughness = roughness_of(surface.points_in_unit)
+    roughness = oriented.roughness
     way, choices = _chosen(options, roughness, oriented.estimated > 0)
     if way == "none":
         return surface, choices
     count = options.denoise_neighbors
     if count is None:
-        count = _neighbors(roughness.deviation)
+        count = STEP * round(NEIGHBORS_OF_NOISE * roughness.deviation**2 / STEP)
+        count = max(FEWEST_FITTED, min(count, MOST_FITTED))
         choices += (Choice("denoise_neighbors", count, "points", str(roughness)),)
     places, normals = surface.points_in_unit, surface.normals
     with core_errors_translated():
@@ -57,13 +55,6 @@ def denoised(
             places, normals = moved.points, moved.normals
     tell(progress, "denoising", 1)
     return Surface.of(surface.frame, places, normals), choices
-
-
-def _neighbors(roughness: float) -> int:
-    """Return how many neighbours to fit to points so rough, in spacings."""
-    # Within 15 % of the standard deviation of noise on planes and spheres, up to two spacings.
-    noise = roughness / max(1 - (roughness / SATURATED) ** 4, 0.1)
-    return max(FEWEST_FITTED, min(STEP * round(NEIGHBORS_OF_NOISE * noise**2 / STEP), MOST_FITTED))
 
 
 def _chosen(options: DenoisingOptions, roughness: Roughness, estimated: bool) -> tuple[str, tuple[Choice, ...]]:

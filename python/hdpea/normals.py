@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from hdpea import _core
 from hdpea.errors import UnreadableInput, core_errors_translated
 from hdpea.frame import UnitFrame
-from hdpea.noise import roughness_of
+from hdpea.noise import Roughness, roughness_of
 from hdpea.options import NormalOptions
 from hdpea.orientation import Unoriented, Vectors, orient, require_signs
 from hdpea.progress import ProgressCallback, of_phase, tell
@@ -33,6 +33,8 @@ class OrientedSurface:
 
     Attributes
     ----------
+    roughness
+        Of the points as given.
     estimated
         How many normals had to be estimated.
     consistency
@@ -44,6 +46,7 @@ class OrientedSurface:
     """
 
     surface: Surface
+    roughness: Roughness
     estimated: int
     consistency: float | None
     reoriented: bool
@@ -102,10 +105,11 @@ def oriented_surface(
     with core_errors_translated():
         neighbors = _core.nearest_neighbors(points, NEIGHBORS)
         nearest = np.ascontiguousarray(neighbors[:, :ORIENTATION_NEIGHBORS])
-        directions, choices = _directions(points, given, usable, neighbors, options, points_per_vertex)
+        roughness = roughness_of(points)
+        directions, choices = _directions(points, given, usable, neighbors, roughness, options, points_per_vertex)
         # Where normals are to be estimated whatever is given, what is given has no say unless it is asked for.
         heard = given if options.orient == "file" else np.where(usable[:, None], given, 0)
-        cloud = Unoriented(points, directions, ~usable, heard, nearest)
+        cloud = Unoriented(points, directions, ~usable, heard, nearest, roughness)
         seen_from = sensors_in_world if options.viewpoint is None else options.viewpoint.as_array()
         towards = None if seen_from is None else frame.to_unit(seen_from)
         orientation = orient(cloud, options.orient, towards, of_phase(progress, "normals"))
@@ -114,7 +118,8 @@ def oriented_surface(
         consistency = cloud.consistency
     tell(progress, "normals", 1)
     surface = Surface.of(frame, points, orientation.normals, neighbors)
-    return OrientedSurface(surface, int((~usable).sum()), consistency, orientation.way != "file", choices)
+    reoriented = orientation.way != "file"
+    return OrientedSurface(surface, roughness, int((~usable).sum()), consistency, reoriented, choices)
 
 
 def _directions(
@@ -122,6 +127,7 @@ def _directions(
     given: Vectors,
     usable: NDArray[np.bool_],
     neighbors: NDArray[np.int64],
+    roughness: Roughness,
     options: NormalOptions,
     points_per_vertex: float,
 ) -> tuple[Vectors, tuple[Choice, ...]]:
@@ -131,7 +137,6 @@ def _directions(
     count = options.normal_neighbors
     choices: tuple[Choice, ...] = ()
     if count is None:
-        roughness = roughness_of(points)
         enough = min(round(NEIGHBORS_PER_NOISE * roughness.noise), MOST_NEIGHBORS)
         count = max(ORIENTATION_NEIGHBORS, min(round(2 * points_per_vertex), NEIGHBORS), enough)
         why = f"twice the points per particle, from {ORIENTATION_NEIGHBORS} to {NEIGHBORS}"

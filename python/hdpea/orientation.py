@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from hdpea import _core
 from hdpea.errors import UnreadableInput, UsageError
+from hdpea.noise import Roughness
 from hdpea.options import NormalOptions
 
 Vectors = NDArray[np.float64]
@@ -21,6 +22,15 @@ TRUSTED_CONSISTENCY = 0.9
 
 AGREEING_COSINE = 0.5
 """Least |cosine| with the winding number's normal at which a direction is taken for the same normal: 60 degrees."""
+
+DEVIATIONS_WIDE = 1.2
+"""Widening of the winding number for each standard deviation of the noise.
+
+With less it sees single points (of scissors with noise of 0.5 % of the diagonal 4.4 % of the normals are on the wrong
+side without, 1.7 % with it), with more the two sides of walls are one (of a goblet 3 %, and 17 % from 2.0 on)."""
+
+MOST_OF_WALLS = 0.2
+"""Deviation, in spacings, from which what is not like noise widens no more: the sides of walls are to be parted."""
 
 
 @dataclass(frozen=True)
@@ -37,6 +47,8 @@ class Unoriented:
         (n, 3) float64: normals whose signs may be heard, of length 1, or 0 where there is none.
     neighbors
         (n, k) int64: nearest other points, -1 pads.
+    roughness
+        Of the points.
     """
 
     points: Vectors
@@ -44,6 +56,7 @@ class Unoriented:
     estimated: NDArray[np.bool_]
     given: Vectors
     neighbors: NDArray[np.int64]
+    roughness: Roughness
 
     @cached_property
     def consistency(self) -> float | None:
@@ -137,7 +150,10 @@ def by_spanning_tree(cloud: Unoriented) -> Vectors:
 
 def by_winding_number(cloud: Unoriented, progress: Callable[[float], bool] | None = None) -> Vectors:
     """Turn the directions as the winding number has it; estimates far off it are replaced by its own."""
-    winding = _core.wnnc_normals(cloud.points, progress=progress)
+    options, roughness = _core.WnncOptions(), cloud.roughness
+    noise = roughness.deviation if roughness.like_noise else min(roughness.deviation, MOST_OF_WALLS)
+    options.spacings_wide += DEVIATIONS_WIDE * noise
+    winding = _core.wnnc_normals(cloud.points, options, progress)
     agreeing = abs(cosines(cloud.directions, winding)) >= AGREEING_COSINE
     signed = turned(cloud.directions, winding)
     # An estimate far off was fitted across an edge or a thin wall, which the winding number knows of.

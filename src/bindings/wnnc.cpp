@@ -4,12 +4,10 @@
 #include "bindings.hpp"
 
 void register_wnnc(nb::module_& module) {
-  // The options are for the core's own tests: nobody sets them from Python.
-  module.def(
-      "wnnc_normals",
-      [](const hdpea::PointsRef& points, const hdpea::Progress& progress) {
-        return hdpea::wnnc_normals(points, {}, progress);
-      },
-      "points"_a, "progress"_a = nb::none(), ReleaseGil(),
-      "Unit normals (n, 3) that point out of what the points enclose, by the winding number.");
+  using hdpea::WnncOptions;
+  nb::class_<WnncOptions>(module, "WnncOptions", "How the winding number is smoothed.")
+      .def(nb::init<>())
+      .def_rw("spacings_wide", &WnncOptions::spacings_wide, "The last width, in spacings of the points.");
+  module.def("wnnc_normals", &hdpea::wnnc_normals, "points"_a, "options"_a, "progress"_a = nb::none(), ReleaseGil(),
+             "Unit normals (n, 3) that point out of what the points enclose, by the winding number.");
 }

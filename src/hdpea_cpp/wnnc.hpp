@@ -8,9 +8,8 @@ namespace hdpea {
 /// How `wnnc_normals` iterates. The winding number is smoothed over a width that shrinks step by step.
 struct WnncOptions {
   int iterations = 30;
-  double first_width = 0.02;    ///< of the bounding box's diagonal
-  double spacings_wide = 0.25;  ///< least last width, in spacings of the points
-  double noises_wide = 2.5;     ///< least last width, in standard deviations of the noise
+  double first_width = 0.02;    ///< least, of the bounding box's diagonal
+  double spacings_wide = 0.25;  ///< last width, in spacings of the points: above their noise, below walls
 };
 
 /// Unit normals that point out of what the points enclose, from the positions alone.

@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <numeric>
+#include <random>
 #include <vector>
 
 #include "clouds.hpp"
@@ -60,6 +62,16 @@ TEST(WnncNormals, OfASphereAreThoseOfTheSphere) {
   EXPECT_GT((wnnc_normals(sphere.points).array() * sphere.normals.array()).rowwise().sum().minCoeff(), 0.98);
 }
 
+TEST(WnncNormals, OfNoiseNeedAWidthOfTwiceIt) {
+  const auto sphere = clouds::sphere(4000);
+  const double spacing = std::sqrt(4 * std::numbers::pi / 4000);
+  std::mt19937 random(0);
+  std::normal_distribution<double> noise(0, 1.5 * spacing);
+  const Points points = sphere.points + Points::NullaryExpr(4000, 3, [&] { return noise(random); });
+  EXPECT_GT(share_right(wnnc_normals(points, {.spacings_wide = 3.25}), sphere.normals), 0.995);
+  EXPECT_LT(share_right(wnnc_normals(points), sphere.normals), 0.8);
+}
+
 TEST(WnncNormals, DoNotDependOnTheThreads) {
   const Points points = clouds::thin_plate().points;
   set_thread_limit(1);
@@ -105,7 +117,6 @@ TEST(WnncNormals, RefuseWhatIsIllegal) {
   EXPECT_THROW(wnnc_normals(points, {.iterations = 0}), InvalidArgument);
   EXPECT_THROW(wnnc_normals(points, {.first_width = 0}), InvalidArgument);
   EXPECT_THROW(wnnc_normals(points, {.spacings_wide = 0}), InvalidArgument);
-  EXPECT_THROW(wnnc_normals(points, {.noises_wide = -1}), InvalidArgument);
 }
 
 }  // namespace

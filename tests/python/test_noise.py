@@ -10,7 +10,7 @@ import pytest
 from hdpea.noise import Roughness, roughness_of
 
 
-@pytest.mark.parametrize("share", [0.1, 0.5])
+@pytest.mark.parametrize("share", [0.1, 0.5, 1, 1.5])
 def test_noise_is_told_in_spacings(share: float) -> None:
     random = np.random.default_rng(0)
     spacing = 4_000**-0.5

@@ -46,6 +46,21 @@ def test_the_winding_number_stands_the_noise_that_a_spanning_tree_does_not() -> 
     assert right["wnnc"] > 0.97 > right["mst"]
 
 
+def test_the_thicker_the_noise_the_wider_the_winding_number() -> None:
+    points, truth = clouds.sphere(4000)
+    spacing = np.sqrt(4 * np.pi / 4000)
+    thick = points + np.random.default_rng(3).normal(0, 1.5 * spacing, points.shape)
+    assert (cosines(oriented(thick), truth) > 0).mean() > 0.99
+
+
+@pytest.mark.parametrize("noise", [0, 0.05])
+def test_the_sides_of_a_wall_thinner_than_the_spacing_are_told_apart(noise: float) -> None:
+    spacing = np.sqrt(2 / 6000)
+    points, truth = clouds.box(6000, (1, 1, 0.7 * spacing))
+    points = points + np.random.default_rng(3).normal(0, noise * spacing, points.shape)
+    assert (cosines(oriented(points), truth) > 0).mean() > 0.96
+
+
 @pytest.mark.parametrize("sign", [1, -1])
 def test_the_signs_of_the_file_are_taken_as_they_are(sign: int) -> None:
     points, truth = clouds.torus(2000)
