@@ -6,12 +6,14 @@ from __future__ import annotations
 import re
 import sys
 from collections.abc import Callable
+from dataclasses import replace
 from importlib import import_module
 from pathlib import Path
 
 import numpy as np
 import pytest
 import trimesh
+from networks import TINY
 
 from hdpea.benchmark.benchmarking import evenly
 from hdpea.benchmark.clouds import make_cloud
@@ -21,6 +23,8 @@ from hdpea.benchmark.suite import SuiteInput
 from hdpea.cli import run
 from hdpea.dataset.options import DegradationOptions, SampleOptions, ScanOptions
 from hdpea.errors import UsageError
+from hdpea.network.transformer import PointTransformer
+from hdpea.network.weights import write_weights
 from hdpea.reading import read_points
 from hdpea.reading.triangle_mesh import TriangleMesh
 
@@ -99,6 +103,19 @@ def test_a_suite_is_run_and_continued(suite: Path, tmp_path: Path, capsys: Captu
     assert "is there already" in second
     assert run([*arguments, "--quiet"]) == 0
     assert capsys.readouterr() == ("", "")
+
+
+def test_new_weights_are_run_anew(suite: Path, tmp_path: Path, capsys: Capture) -> None:
+    weights = tmp_path / "w.safetensors"
+    other = 'method = "hdpea"\nembedding = "learned"\nweights = "w.safetensors"\n'
+    suite.write_text(suite.read_text().split('method = "folder"')[0] + other)
+    arguments = ["benchmark", str(suite), str(tmp_path / "out"), "--models", "1"]
+    for seed in (0, 1):
+        write_weights(weights, PointTransformer(replace(TINY, seed=seed)))
+        assert run(arguments) == 0
+        assert "is there already" not in told(capsys)[0]
+    assert run(arguments) == 0
+    assert "is there already" in told(capsys)[0]
 
 
 def test_what_fails_is_told_and_tried_again(suite: Path, tmp_path: Path, capsys: Capture, failed: Failed) -> None:

@@ -113,12 +113,20 @@ def mesh_path(folder: Path, record: Record) -> Path:
 
 def _planned(suite: Suite, model: Model, given: SuiteInput, method: SuiteMethod, vertices: int) -> Record:
     """Return the record of a run that has not been done."""
-    file = None if method.method != "folder" else made_elsewhere(method.options(), model.name, given.name, vertices)
+    file = _file_read(method, model.name, given.name, vertices)
     content = sha256(file.read_bytes()).hexdigest() if file is not None and file.is_file() else None
     of_points = (suite.options.seed, asdict(given), model.content)
     measured = (asdict(model.measuring), suite.options.rendered)
     key = key_of(version(), model.name, of_points, method.method, dict(method.values), content, vertices, measured)
     return Record(model.name, given.name, method.name, vertices, key, code())
+
+
+def _file_read(method: SuiteMethod, model: str, given: str, vertices: int) -> Path | None:
+    """Return the file that a method takes what it makes from: the mesh, or the weights of a network."""
+    if method.method == "folder":
+        return made_elsewhere(method.options(), model, given, vertices)
+    weights = method.values.get("weights")
+    return None if weights is None else Path(str(weights))
 
 
 def _cloud(model: Model, given: SuiteInput, folder: Path) -> Cloud | HdpeaError:
