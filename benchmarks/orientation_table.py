@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """How well normals are estimated and oriented, by every way of orienting them.
 
-    python benchmarks/orientation_table.py [--meshes bull,trex] [--save DIR] [--cloud FILE --picture DIR]
+    python benchmarks/orientation_table.py [--meshes bull,trex] [--noise 0.005] [--save DIR]
+    python benchmarks/orientation_table.py --only-clouds --cloud FILE --picture DIR
 
 Each mesh of a folder is sampled as `val_table.py` does, and scanned by a simulated sensor; normals are estimated from
 the points, oriented, and compared with the true ones. Also times every way on clouds as they come from scanners, whose
@@ -38,9 +39,6 @@ from hdpea.viewpoint import choose_view_of_points
 
 Array = NDArray[np.float64]
 
-NOISE = 0.003
-"""Standard deviation of the noise, in bounding-box diagonals; in scans that of the range."""
-
 VIEWS = 6
 """Places from which a mesh is scanned: few, and all above it, so that there are holes."""
 
@@ -59,11 +57,11 @@ class Cloud:
     sensors: Array | None = None
 
 
-def noisy(cloud: Cloud, seed: int) -> Cloud:
-    """Return the cloud with Gaussian noise on its points."""
-    deviation = NOISE * np.linalg.norm(np.ptp(cloud.points, axis=0))
-    noise = np.random.default_rng(seed).normal(0, deviation, cloud.points.shape)
-    return Cloud(cloud.points + noise, cloud.normals, cloud.sensors)
+def noisy(cloud: Cloud, noise: float, seed: int) -> Cloud:
+    """Return the cloud with Gaussian noise on its points, in shares of its diagonal."""
+    deviation = noise * np.linalg.norm(np.ptp(cloud.points, axis=0))
+    moves = np.random.default_rng(seed).normal(0, deviation, cloud.points.shape)
+    return Cloud(cloud.points + moves, cloud.normals, cloud.sensors)
 
 
 def scanned(path: Path, noise: float, seed: int) -> Cloud:
@@ -90,24 +88,26 @@ def ways_of(cloud: Cloud) -> tuple[str, ...]:
     return tuple(way for way in WAYS if way != "viewpoint" or cloud.sensors is not None)
 
 
-def run_mesh(path: Path, metrics: ModuleType) -> dict[str, dict[str, Score]]:
+def run_mesh(path: Path, metrics: ModuleType, noise: float) -> dict[str, dict[str, Score]]:
     """Return the scores of every way on every kind of cloud made of a mesh."""
     sampled = Sampled.of(path, metrics)
     clean = Cloud(sampled.points, sampled.normals)
     clouds = {
         "clean": clean,
-        f"{NOISE:.1%} noise": noisy(clean, sampled.seed),
+        f"{noise:.1%} noise": noisy(clean, noise, sampled.seed),
         "scan with holes": scanned(path, 0, sampled.seed),
-        f"the same, {NOISE:.1%} noise": scanned(path, NOISE, sampled.seed),
+        f"the same, {noise:.1%} noise": scanned(path, noise, sampled.seed),
     }
     click.echo(path.stem, err=True)
     return {kind: {way: score(cloud, way) for way in ways_of(cloud)} for kind, cloud in clouds.items()}
 
 
-def print_meshes(paths: list[Path], baselines: Path, save: Path | None) -> None:
+def print_meshes(paths: list[Path], baselines: Path, noise: float, save: Path | None) -> None:
     """Print how well each way does on every kind of cloud made of the meshes."""
     metrics = load_metrics(baselines)
-    by_mesh = {path.stem: kept(save, path.stem, partial(run_mesh, path, metrics)) for path in paths}
+    by_mesh = {
+        path.stem: kept(save, f"{path.stem}-{noise:g}", partial(run_mesh, path, metrics, noise)) for path in paths
+    }
     click.echo("| cloud | --orient | within 90 degrees, % | worst mesh, % | mean error, degrees | seconds |")
     click.echo("|---|---|---|---|---|---|")
     for kind, of_kind in by_mesh[paths[0].stem].items():
@@ -159,6 +159,7 @@ def draw_sides(path: Path, points: Array, normals: dict[str, Array]) -> None:
 @click.argument("folder", type=click.Path(exists=True, path_type=Path), default=ROOT / "../shared/data/meshes/val")
 @click.argument("baselines", type=click.Path(exists=True, path_type=Path), default=ROOT / "../shared/baselines")
 @click.option("--meshes", help="only these, by name: bull,trex")
+@click.option("--noise", default=0.003, show_default=True, help="in bounding-box diagonals; in scans of the range")
 @click.option("--cloud", "clouds", multiple=True, type=click.Path(exists=True, path_type=Path), help="a raw cloud")
 @click.option("--picture", "pictures", type=click.Path(path_type=Path), help="folder for a picture of each raw cloud")
 @click.option("--only-clouds", is_flag=True, help="leave out the meshes")
@@ -168,6 +169,7 @@ def main(
     folder: Path,
     baselines: Path,
     meshes: str | None,
+    noise: float,
     clouds: tuple[Path, ...],
     pictures: Path | None,
     only_clouds: bool,
@@ -175,7 +177,7 @@ def main(
 ) -> None:
     """Orient the samples of the meshes of FOLDER, and raw clouds."""
     if not only_clouds:
-        print_meshes(meshes_of(folder, meshes), baselines, save)
+        print_meshes(meshes_of(folder, meshes), baselines, noise, save)
     if pictures is not None:
         pictures.mkdir(parents=True, exist_ok=True)
     if clouds:

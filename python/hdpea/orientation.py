@@ -26,8 +26,8 @@ AGREEING_COSINE = 0.5
 DEVIATIONS_WIDE = 1.2
 """Widening of the winding number for each standard deviation of the noise.
 
-With less it sees single points (of scissors with noise of 0.5 % of the diagonal 4.4 % of the normals are on the wrong
-side without, 1.7 % with it), with more the two sides of walls are one (of a goblet 3 %, and 17 % from 2.0 on)."""
+With less it sees single points, and half of a thick shell of noise turns inwards (ycb_scissors, noise of 0.5 % of the
+diagonal); with more the two sides of a wall are one (goblet_top, as much noise, from 2.0 on)."""
 
 MOST_OF_WALLS = 0.2
 """Deviation, in spacings, from which what is not like noise widens no more: the sides of walls are to be parted."""
