@@ -26,9 +26,10 @@ SPREAD = 0.525
 Of two sheets, as of thin walls, it lies nearer to their two heights (``benchmarks/roughness_table.py``)."""
 
 SATURATED, LEAST_SHARE = 0.94, 0.25
-"""What quadrics leave over of noise without end, in spacings, and the least share of the noise that they are taken for.
+"""Deviation from a quadric, in spacings, that no noise exceeds, and the least share of the noise that it can be.
 
-Seen by few neighbours a thick shell is a ball full of points. Within 15 % of noise of up to 1.5 spacings, measured."""
+Seen by few neighbours a thick shell is a ball full of points. Corrected, noise of up to 1.5 spacings is told to 15 %.
+"""
 
 
 @dataclass(frozen=True)
