@@ -63,11 +63,11 @@ TEST(WnncNormals, OfASphereAreThoseOfTheSphere) {
 }
 
 TEST(WnncNormals, OfNoiseNeedAWidthOfTwiceIt) {
-  const auto sphere = clouds::sphere(4000);
-  const double spacing = std::sqrt(4 * std::numbers::pi / 4000);
+  const auto sphere = clouds::sphere(1500);
+  const double spacing = std::sqrt(4 * std::numbers::pi / 1500);
   std::mt19937 random(0);
   std::normal_distribution<double> noise(0, 1.5 * spacing);
-  const Points points = sphere.points + Points::NullaryExpr(4000, 3, [&] { return noise(random); });
+  const Points points = sphere.points + Points::NullaryExpr(1500, 3, [&] { return noise(random); });
   EXPECT_GT(share_right(wnnc_normals(points, {.spacings_wide = 3.25}), sphere.normals), 0.995);
   EXPECT_LT(share_right(wnnc_normals(points), sphere.normals), 0.8);
 }
