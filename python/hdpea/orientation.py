@@ -23,11 +23,11 @@ TRUSTED_CONSISTENCY = 0.9
 AGREEING_COSINE = 0.5
 """Least |cosine| with the winding number's normal at which a direction is taken for the same normal: 60 degrees."""
 
-DEVIATIONS_WIDE = 1.2
+DEVIATIONS_WIDE = 1.6
 """Widening of the winding number for each standard deviation of the noise.
 
-With less it sees single points, and half of a thick shell of noise turns inwards (ycb_scissors, noise of 0.5 % of the
-diagonal); with more the two sides of a wall are one (goblet_top, as much noise, from 2.0 on)."""
+With less it sees single points, and beside the holes of scans half of a thick shell of noise turns inwards (boot, noise
+of 0.5 % of the diagonal); with more the two sides of a wall are one (goblet_top, as much noise, from 2.0 on)."""
 
 MOST_OF_WALLS = 0.2
 """Deviation, in spacings, from which what is not like noise widens no more: the sides of walls are to be parted."""
