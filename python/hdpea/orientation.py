@@ -29,7 +29,7 @@ DEVIATIONS_WIDE = 1.6
 With less it sees single points, and beside the holes of scans half of a thick shell of noise turns inwards (boot, noise
 of 0.5 % of the diagonal); with more the two sides of a wall are one (goblet_top, as much noise, from 2.0 on)."""
 
-MOST_OF_WALLS = 0.2
+MOST_OF_WALLS = 0.15
 """Deviation, in spacings, from which what is not like noise widens no more: the sides of walls are to be parted."""
 
 
