@@ -91,10 +91,10 @@ inline Cloud cube(Index per_face) {
   return cube;
 }
 
-/// 2,500 points in a unit square have a spacing of 0.02; the plate is three spacings thick and has a rim.
-inline Cloud thin_plate() {
-  Cloud plate = cube(2500);
-  plate.points.col(2) *= 0.06;
+/// A unit square of so many points on either side, three of their spacings thick, with a rim.
+inline Cloud thin_plate(Index per_side = 2500) {
+  Cloud plate = cube(per_side);
+  plate.points.col(2) *= 3 / std::sqrt(static_cast<double>(per_side));
   return plate;
 }
 

@@ -73,7 +73,7 @@ TEST(WnncNormals, OfNoiseNeedAWidthOfTwiceIt) {
 }
 
 TEST(WnncNormals, DoNotDependOnTheThreads) {
-  const Points points = clouds::torus(3000).points;
+  const Points points = clouds::thin_plate(500).points;
   set_thread_limit(1);
   const Points alone = wnnc_normals(points);
   set_thread_limit(0);
@@ -81,7 +81,7 @@ TEST(WnncNormals, DoNotDependOnTheThreads) {
 }
 
 TEST(WnncNormals, AreThoseOfThePointsInAnyOrder) {
-  const Points points = clouds::torus(3000).points;
+  const Points points = clouds::thin_plate(500).points;
   std::vector<Index> backwards(static_cast<std::size_t>(points.rows()));
   std::iota(backwards.rbegin(), backwards.rend(), Index{0});
   const Points reversed = wnnc_normals(points(backwards, Eigen::all));
