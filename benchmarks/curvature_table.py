@@ -37,13 +37,13 @@ from hdpea.curvature.options import EstimationOptions
 from hdpea.curvature.tensors import metric_tensors
 from hdpea.dataset.ground_truth import embed_mesh
 from hdpea.dataset.options import GroundTruthOptions, SamplingOptions
-from hdpea.dataset.sampling import sample_surface
 from hdpea.embedding import EMBEDDERS
 from hdpea.embedding.embedded import Metric
 from hdpea.errors import HdpeaError
+from hdpea.geometry.sampling import sample_surface
+from hdpea.geometry.triangles import mesh_area
 from hdpea.options import EmbeddingOptions, NormalOptions
-from hdpea.surface import NEIGHBORS
-from hdpea.triangles import mesh_area
+from hdpea.surface.surface import NEIGHBORS
 
 JET, LEARNED, MESH = "jet", "learned", "mesh"
 CLEAR_RATIO = 1.5

@@ -7,9 +7,9 @@ from pathlib import Path
 
 import click
 
-from hdpea.frame import UnitFrame
+from hdpea.geometry.unit_frame import UnitFrame
 from hdpea.reading import read_points
-from hdpea.surface import Surface
+from hdpea.surface.surface import Surface
 
 
 def given_surface(points: Path) -> Surface:

@@ -25,11 +25,11 @@ from val_table import ROOT, Sampled, load_metrics, meshes_of
 
 from hdpea import reconstruct
 from hdpea.dataset.options import GroundTruthOptions
-from hdpea.meshing import Mesh
-from hdpea.normals import oriented_surface
+from hdpea.mesh.extraction import Mesh
+from hdpea.mesh.refinement import refine_mesh
 from hdpea.options import MeshingOptions, Options, RefinementOptions
-from hdpea.refinement import refine_mesh
-from hdpea.surface import Surface
+from hdpea.surface.normals import oriented_surface
+from hdpea.surface.surface import Surface
 
 MESHES = "adis16480,anchor,boot,bull,engine,goblet_top,lattice_lamp,lewis_queen,trex,ycb_scissors"
 """The five that the oracle is worst on, and five others."""

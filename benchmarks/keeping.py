@@ -8,7 +8,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import TypeVar
 
-from hdpea.outputs import replacing
+from hdpea.runtime.outputs import replacing
 
 Kept = TypeVar("Kept")
 

@@ -16,9 +16,9 @@ from given_surface import given_surface
 
 from hdpea.network.inference import predict_psi
 from hdpea.network.weights import read_weights
-from hdpea.surface import area_shown
+from hdpea.surface.surface import area_shown
 from hdpea.training.validation import mesh_of_embedding
-from hdpea.writing import write_mesh
+from hdpea.writing.meshes import write_mesh
 
 
 @click.command()

@@ -13,7 +13,7 @@ from hdpea.dataset.options import GroundTruthOptions
 from hdpea.embedding import Embedder
 from hdpea.embedding.embedded import Embedded
 from hdpea.options import EmbeddingOptions
-from hdpea.surface import Surface
+from hdpea.surface.surface import Surface
 
 ORACLE = "oracle"
 

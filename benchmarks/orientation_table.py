@@ -28,14 +28,14 @@ from hdpea.dataset.options import ScanOptions
 from hdpea.dataset.scanning import scan_surface
 from hdpea.dataset.showing import PANEL
 from hdpea.dataset.surface_file import read_surface
-from hdpea.frame import UnitFrame
-from hdpea.normals import oriented_surface
+from hdpea.geometry.unit_frame import UnitFrame
 from hdpea.options import NormalOptions
-from hdpea.picture import DOTS, FRONT, drawn_to, look_at, point_size
-from hdpea.position import Position
+from hdpea.options.position import Position
+from hdpea.pictures.camera import choose_view_of_points
+from hdpea.pictures.picture import DOTS, FRONT, drawn_to, look_at, point_size
 from hdpea.reading import read_points
 from hdpea.reading.cloud import cleaned
-from hdpea.viewpoint import choose_view_of_points
+from hdpea.surface.normals import oriented_surface
 
 Array = NDArray[np.float64]
 

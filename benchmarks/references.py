@@ -12,7 +12,7 @@ from oracle import ORACLE, oracle_embedder
 from hdpea.embedding import Embedder
 from hdpea.embedding.embedded import Embedded
 from hdpea.options import EmbeddingOptions
-from hdpea.surface import Surface
+from hdpea.surface.surface import Surface
 
 NORMAL_FACTOR = 0.05
 """Factor on the normals, in diagonals, of the 6-D embedding [p, s n] that remeshers use (Levy and Bonneel 2013)."""

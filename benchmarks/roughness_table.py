@@ -16,12 +16,12 @@ import click
 import numpy as np
 
 from hdpea.dataset.options import SamplingOptions
-from hdpea.dataset.sampling import sample_surface
 from hdpea.dataset.sources import find_meshes
 from hdpea.dataset.surface_file import read_surface
-from hdpea.frame import UnitFrame
-from hdpea.noise import roughness_of
-from hdpea.options import ROUGH
+from hdpea.geometry.sampling import sample_surface
+from hdpea.geometry.unit_frame import UnitFrame
+from hdpea.options.denoising import ROUGH
+from hdpea.surface.roughness import roughness_of
 
 NOISE = (0.0, 0.0005, 0.001, 0.003, 0.005)
 

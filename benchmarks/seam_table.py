@@ -21,12 +21,12 @@ from val_table import read_mesh
 
 from hdpea.dataset.ground_truth import embed_mesh
 from hdpea.dataset.options import GroundTruthOptions, SamplingOptions
-from hdpea.dataset.sampling import sample_surface
+from hdpea.geometry.sampling import sample_surface
 from hdpea.network.inference import PATCH_POINTS, canonical_order, predict_psi
 from hdpea.network.patches import cut_patches
 from hdpea.network.weights import read_weights
-from hdpea.options import POINTS_PER_VERTEX
-from hdpea.surface import Surface, area_shown
+from hdpea.options.meshing import POINTS_PER_VERTEX
+from hdpea.surface.surface import Surface, area_shown
 
 Array = NDArray[np.float64]
 NEAREST = 12

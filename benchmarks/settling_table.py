@@ -18,11 +18,11 @@ from means_table import print_means
 from numpy.typing import NDArray
 from val_table import Sampled, load_metrics, meshes_of
 
-from hdpea.frame import UnitFrame
+from hdpea.geometry.unit_frame import UnitFrame
 from hdpea.network.inference import predict_psi
 from hdpea.network.settling import settled
 from hdpea.network.weights import SHIPPED, read_weights
-from hdpea.surface import Surface, area_shown
+from hdpea.surface.surface import Surface, area_shown
 from hdpea.training.validation import mesh_of_embedding
 
 COLUMNS = {"T3": 3, "G": 3, "CDs": 3, "HDs": 3, "seconds": 2}

@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image
 
-from hdpea.picture import Camera, draw_mesh
+from hdpea.pictures.picture import Camera, draw_mesh
 from hdpea.reading.triangle_mesh import read_triangle_mesh
 
 PANEL = (320, 320)

@@ -18,13 +18,13 @@ from numpy.typing import NDArray
 
 from hdpea import _core
 from hdpea.embedding import embed_surface
-from hdpea.meshing import extract_mesh
+from hdpea.embedding.tangents import TANGENT_NEIGHBORS, tangent_bases
+from hdpea.mesh.extraction import extract_mesh
+from hdpea.mesh.particles import spread_particles
+from hdpea.mesh.refinement import refine_mesh
 from hdpea.options import EmbeddingOptions
-from hdpea.particles import spread_particles
-from hdpea.refinement import refine_mesh
-from hdpea.surface import Surface
-from hdpea.tangents import TANGENT_NEIGHBORS, tangent_bases
-from hdpea.writing import write_mesh
+from hdpea.surface.surface import Surface
+from hdpea.writing.meshes import write_mesh
 
 Array = NDArray[np.float64]
 

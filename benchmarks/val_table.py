@@ -29,8 +29,8 @@ from references import REFERENCES
 
 from hdpea import _core, reconstruct
 from hdpea.options import EmbeddingOptions, MeshingOptions, Options, RefinementOptions
-from hdpea.picture import draw_mesh
-from hdpea.writing import write_mesh
+from hdpea.pictures.picture import draw_mesh
+from hdpea.writing.meshes import write_mesh
 
 ROOT = Path(__file__).resolve().parent.parent
 POINTS = 40_000

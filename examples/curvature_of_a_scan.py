@@ -15,9 +15,9 @@ import numpy as np
 from plyfile import PlyData, PlyElement
 
 from hdpea import CurvatureOptions, estimate_curvature, read_points
-from hdpea.colors import ratio_colors
 from hdpea.curvature.options import EstimationOptions
 from hdpea.curvature.page import write_page
+from hdpea.pictures.colors import ratio_colors
 
 
 def main(scan: Path, out: Path) -> None:

@@ -13,9 +13,9 @@ from pathlib import Path
 
 from hdpea import reconstruct
 from hdpea.options import MeshingOptions, Options
-from hdpea.picture import draw_mesh
+from hdpea.pictures.picture import draw_mesh
 from hdpea.reading import read_points
-from hdpea.writing import write_mesh
+from hdpea.writing.meshes import write_mesh
 
 
 def main(scan: Path, out: Path) -> None:

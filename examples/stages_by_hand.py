@@ -15,13 +15,13 @@ import numpy as np
 from shapes import sample
 
 from hdpea.embedding import embed_surface
-from hdpea.meshing import extract_mesh
-from hdpea.normals import oriented_surface
+from hdpea.embedding.tangents import tangent_bases
+from hdpea.mesh.extraction import extract_mesh
+from hdpea.mesh.particles import spread_particles
+from hdpea.mesh.refinement import refine_mesh
 from hdpea.options import EmbeddingOptions
-from hdpea.particles import spread_particles
-from hdpea.refinement import refine_mesh
-from hdpea.tangents import tangent_bases
-from hdpea.writing import write_mesh
+from hdpea.surface.normals import oriented_surface
+from hdpea.writing.meshes import write_mesh
 
 
 def main(out: Path, vertices: int = 1_000) -> None:

@@ -15,11 +15,11 @@ if TYPE_CHECKING:
     from hdpea.curvature.tensors import CurvatureTensors as CurvatureTensors
     from hdpea.embedding import Embedding as Embedding
     from hdpea.embedding import embed_points as embed_points
-    from hdpea.options import Options as Options
+    from hdpea.options.reconstruction import Options as Options
     from hdpea.reading import read_points as read_points
     from hdpea.reconstruction import Reconstruction as Reconstruction
     from hdpea.reconstruction import reconstruct as reconstruct
-    from hdpea.writing import write_mesh as write_mesh
+    from hdpea.writing.meshes import write_mesh as write_mesh
 
 __all__ = [
     "CurvatureOptions",
@@ -44,7 +44,7 @@ _HOMES = {
     "estimate_curvature": "hdpea.curvature.estimation",
     "read_points": "hdpea.reading",
     "reconstruct": "hdpea.reconstruction",
-    "write_mesh": "hdpea.writing",
+    "write_mesh": "hdpea.writing.meshes",
 }
 
 

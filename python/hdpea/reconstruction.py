@@ -9,23 +9,25 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hdpea import _core
-from hdpea.budget import Budget
-from hdpea.denoising import denoised
 from hdpea.embedding import Embedder, embed_surface
+from hdpea.embedding.tangents import tangent_bases
 from hdpea.errors import HdpeaError, UsageError, core_errors_translated
-from hdpea.meshing import Mesh, extract_mesh
-from hdpea.normals import OrientedSurface, oriented_surface
-from hdpea.options import POINTS_PER_VERTEX, Options
-from hdpea.orientation import TRUSTED_CONSISTENCY
-from hdpea.particles import spread_particles
-from hdpea.progress import ProgressCallback, of_phase, tell
+from hdpea.mesh.budget import Budget
+from hdpea.mesh.extraction import Mesh, extract_mesh
+from hdpea.mesh.particles import spread_particles
+from hdpea.mesh.refinement import refine_mesh
+from hdpea.mesh.simplification import simplify_mesh
+from hdpea.options import Options
+from hdpea.options.choice import Choice
+from hdpea.options.meshing import POINTS_PER_VERTEX
 from hdpea.reading.cloud import PointCloud, cleaned, from_arrays
-from hdpea.refinement import refine_mesh
-from hdpea.report import Choice, Distances, MeshFacts, Report
-from hdpea.simplification import simplify_mesh
-from hdpea.surface import Surface
-from hdpea.tangents import tangent_bases
-from hdpea.threads import limited_threads
+from hdpea.report.report import Distances, MeshFacts, Report
+from hdpea.runtime.progress import ProgressCallback, of_phase, tell
+from hdpea.runtime.threads import limited_threads
+from hdpea.surface.denoising import denoised
+from hdpea.surface.normals import OrientedSurface, oriented_surface
+from hdpea.surface.orientation import TRUSTED_CONSISTENCY
+from hdpea.surface.surface import Surface
 
 PHASES = ("normals", "denoising", "embedding", "particles", "meshing", "refinement", "simplification", "measuring")
 """The phases that ``progress`` hears of, in order; of denoising only if there is noise, or it is asked for, and of

@@ -8,9 +8,9 @@ import sys
 from collections.abc import Callable
 from typing import Any
 
-import clouds
 import numpy as np
 import pytest
+from helpers import clouds
 from numpy.typing import NDArray
 
 from hdpea import reconstruct

@@ -8,15 +8,15 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-import clouds
 import numpy as np
 import pytest
-from made import assert_same_bytes, cloud_of, mesh_of, options
+from helpers import clouds
+from helpers.made import assert_same_bytes, cloud_of, mesh_of, options
 
 from hdpea import reconstruct, reconstruction
 from hdpea.errors import CannotReconstruct, Interrupted, UnreadableInput, UsageError
+from hdpea.mesh.particles import Particles, spread_particles
 from hdpea.options import DenoisingOptions, MeshingOptions, Options
-from hdpea.particles import Particles, spread_particles
 from hdpea.reconstruction import PHASES
 
 

@@ -23,7 +23,7 @@ from hdpea.dataset.raycasting import require_embree
 from hdpea.dataset.sources import MeshSource, find_clouds, find_meshes
 from hdpea.errors import HdpeaError, UsageError, core_errors_translated
 from hdpea.version import version
-from hdpea.writing import write_mesh
+from hdpea.writing.meshes import write_mesh
 
 Chosen = TypeVar("Chosen")
 RUNS, MESHES, CLOUDS, SURFACES = "runs", "meshes", "clouds", "surfaces"

@@ -17,10 +17,10 @@ from hdpea.dataset.estimation import estimated_normals
 from hdpea.dataset.making import draw_points
 from hdpea.dataset.options import DatasetOptions, SamplingOptions
 from hdpea.dataset.sample import Sample
-from hdpea.frame import UnitFrame
-from hdpea.outputs import replacing
+from hdpea.geometry.unit_frame import UnitFrame
 from hdpea.reading.triangle_mesh import TriangleMesh
-from hdpea.writing import point_ply
+from hdpea.runtime.outputs import replacing
+from hdpea.writing.meshes import point_ply
 
 Rows = NDArray[np.float64]
 

@@ -11,12 +11,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hdpea import _core
-from hdpea.colors import as_bytes
 from hdpea.evaluation.normalization import LONGEST_SIDE
-from hdpea.normals import oriented_surface
-from hdpea.picture import Camera, draw_mesh, draw_points
+from hdpea.geometry.thinning import thinned
+from hdpea.pictures.colors import as_bytes
+from hdpea.pictures.picture import Camera, draw_mesh, draw_points
 from hdpea.reading.triangle_mesh import TriangleMesh
-from hdpea.thinning import thinned
+from hdpea.surface.normals import oriented_surface
 
 SIZE = (560, 560)
 """Pixels of a picture."""

@@ -13,8 +13,8 @@ from hdpea.benchmark.benchmarking import evenly, mesh_path, model_of, sources_of
 from hdpea.benchmark.model import Model
 from hdpea.benchmark.record import Record, file_name
 from hdpea.benchmark.suite import Suite
-from hdpea.outputs import replacing
 from hdpea.reading.triangle_mesh import read_triangle_mesh
+from hdpea.runtime.outputs import replacing
 
 PICTURES = "pictures"
 QUALITY = 80

@@ -18,9 +18,9 @@ from hdpea.dataset.degradation import degraded
 from hdpea.dataset.options import DegradationOptions
 from hdpea.errors import CannotReconstruct
 from hdpea.evaluation.truth import Truth, truth_of_points
-from hdpea.frame import UnitFrame
-from hdpea.normals import oriented_surface
+from hdpea.geometry.unit_frame import UnitFrame
 from hdpea.reading import PointCloud, read_points
+from hdpea.surface.normals import oriented_surface
 
 
 @dataclass
@@ -73,7 +73,7 @@ def make_cloud_of_points(to_give: PointCloud, model: str, given: SuiteInput, see
     """Take the first points of a cloud in world units, and make them worse; the same for the same names and seed.
 
     Normals are the file's where they are usable, unless the input says that they are to be estimated; the others are
-    estimated from the points that are given, and all are oriented as ``hdpea.normals`` does by default.
+    estimated from the points that are given, and all are oriented as ``hdpea.surface.normals`` does by default.
 
     Raises
     ------

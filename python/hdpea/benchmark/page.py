@@ -15,7 +15,7 @@ from hdpea.benchmark.nearest import nearest_sentences
 from hdpea.benchmark.record import LARGEST, RMS, Record
 from hdpea.benchmark.suite import HELD_OUT, MESH, Suite
 from hdpea.benchmark.tables import cells_of, quoted_cells
-from hdpea.outputs import replacing
+from hdpea.runtime.outputs import replacing
 
 STYLE = """
 body { font: 15px/1.45 system-ui, sans-serif; margin: 2rem auto; max-width: 1500px; padding: 0 1rem; color: #1f2937 }

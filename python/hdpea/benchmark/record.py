@@ -11,7 +11,7 @@ from hashlib import sha256
 from pathlib import Path
 from typing import Any
 
-from hdpea.outputs import replacing
+from hdpea.runtime.outputs import replacing
 
 RMS = ("accuracy.longest_side.to_truth.rms", "accuracy.longest_side.to_result.rms")
 """Paths to the distance that people are told of a run: from the result, or if the truth is only points, from these."""

@@ -10,7 +10,7 @@ from tempfile import TemporaryDirectory
 import numpy as np
 from numpy.typing import NDArray
 
-from hdpea.picture import Camera, draw_mesh
+from hdpea.pictures.picture import Camera, draw_mesh
 from hdpea.reading.triangle_mesh import TriangleMesh
 
 SIZE = (512, 512)

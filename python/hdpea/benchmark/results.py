@@ -16,7 +16,7 @@ from hdpea.benchmark.record import Record
 from hdpea.benchmark.suite import HELD_OUT, Suite
 from hdpea.benchmark.tables import markdown_table, quoted_table, write_csv
 from hdpea.evaluation.normalization import NORMALIZATIONS
-from hdpea.outputs import replacing
+from hdpea.runtime.outputs import replacing
 
 MEANS = "Means over the models that every method finished; the best of each column is bold."
 

@@ -15,9 +15,9 @@ from hdpea.benchmark.making import Made, made_by
 from hdpea.benchmark.methods import METHODS, Cloud, libraries, method_options
 from hdpea.benchmark.methods.reduction import reduced
 from hdpea.benchmark.surfaces import surface_of
-from hdpea.dataset.isolation import Outcome, run_isolated
 from hdpea.errors import CannotReconstruct
 from hdpea.reading.triangle_mesh import drop_unused
+from hdpea.runtime.processes import Outcome, run_isolated
 
 
 @dataclass(frozen=True)

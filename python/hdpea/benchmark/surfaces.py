@@ -14,7 +14,7 @@ import numpy as np
 from hdpea.benchmark.making import Made, made_by
 from hdpea.benchmark.methods import METHODS, Cloud
 from hdpea.benchmark.record import key_of
-from hdpea.outputs import replacing
+from hdpea.runtime.outputs import replacing
 from hdpea.version import version
 
 

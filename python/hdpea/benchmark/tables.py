@@ -11,7 +11,7 @@ from typing import Any
 from hdpea.benchmark.means import COLUMNS, TIME_TITLES, TIMES, Means, best_of
 from hdpea.benchmark.record import Record
 from hdpea.benchmark.suite import Quoted
-from hdpea.outputs import replacing
+from hdpea.runtime.outputs import replacing
 
 
 def markdown_table(means: Sequence[Means]) -> str:

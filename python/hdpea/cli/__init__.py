@@ -12,7 +12,7 @@ import click
 
 from hdpea.cli.lazy import lazy_group
 from hdpea.errors import HdpeaError, Interrupted, UsageError, core_errors_translated
-from hdpea.interrupting import prompt_interrupts
+from hdpea.runtime.interrupts import prompt_interrupts
 
 COMMANDS = ("reconstruct", "evaluate", "embed", "curvature", "info", "dataset", "train", "benchmark")
 TRACEBACK = "HDPEA_TRACEBACK"

@@ -54,7 +54,7 @@ def command(
     from hdpea.benchmark.gallery import draw_gallery
     from hdpea.benchmark.results import write_results
     from hdpea.benchmark.suite_file import read_suite
-    from hdpea.picture import check_drawing
+    from hdpea.pictures.picture import check_drawing
 
     wanted = read_suite(suite, methods, models)
     where = meshes or wanted.meshes

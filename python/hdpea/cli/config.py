@@ -11,7 +11,7 @@ import click
 
 from hdpea.cli.parameters import GroupedOption
 from hdpea.errors import UsageError
-from hdpea.settings import settings
+from hdpea.options.settings import settings
 
 
 def read_config(path: Path) -> dict[str, Any]:

@@ -10,7 +10,7 @@ import click
 
 from hdpea.cli.parameters import GroupedCommand, GroupedOption, quiet_option, setting_options
 from hdpea.curvature.options import CurvatureOptions
-from hdpea.settings import filled
+from hdpea.options.settings import filled
 
 EPILOG = """\b
 Examples:
@@ -56,8 +56,8 @@ def command(*, source: str, output: Path, picture: Path | None, page: Path | Non
     _check_outputs(source, output, picture, page)
     from hdpea.curvature.estimation import estimate_curvature
     from hdpea.curvature.writing import write_curvature
-    from hdpea.progress import shown, tell
     from hdpea.reading import read_points
+    from hdpea.runtime.progress import shown, tell
 
     with shown(quiet) as progress:
         tell(progress, "reading", 0.0)
@@ -83,12 +83,12 @@ def command(*, source: str, output: Path, picture: Path | None, page: Path | Non
 
 def _check_outputs(source: str, output: Path, picture: Path | None, page: Path | None) -> None:
     from hdpea.curvature.writing import check_curvature_output
-    from hdpea.outputs import check_not_input, check_output
+    from hdpea.runtime.outputs import check_not_input, check_output
 
     check_curvature_output(output)
     check_not_input(output, source)
     if picture:
-        from hdpea.picture import PICTURE_FORMATS, check_drawing
+        from hdpea.pictures.picture import PICTURE_FORMATS, check_drawing
 
         check_output(picture, PICTURE_FORMATS)
         check_drawing()

@@ -33,10 +33,10 @@ def command(ctx: click.Context, /, *, source: str, output: Path, quiet: bool, **
     as much detail as the particles that a mesh of that many --vertices is made of.
     """
     options = chosen_options(ctx, values)
-    from hdpea.outputs import check_not_input, check_output
-    from hdpea.progress import shown, tell
     from hdpea.reading import read_points
-    from hdpea.writing import POINT_FORMATS, write_points
+    from hdpea.runtime.outputs import check_not_input, check_output
+    from hdpea.runtime.progress import shown, tell
+    from hdpea.writing.meshes import POINT_FORMATS, write_points
 
     check_output(output, POINT_FORMATS)
     check_not_input(output, source)
@@ -50,6 +50,6 @@ def command(ctx: click.Context, /, *, source: str, output: Path, quiet: bool, **
         tell(progress, "writing", 0.0)
         write_points(output, embedding.points, embedding.normals, embedding.coordinates)
     if not quiet:
-        from hdpea.summary import describe
+        from hdpea.report.summary import describe
 
         click.echo("\n".join([*map(describe, embedding.choices), *cloud.notes]), err=True)

@@ -49,8 +49,8 @@ def command(result: Path, truth: Path, as_json: bool, **values: Any) -> None:
     from hdpea.evaluation.evaluating import evaluate
     from hdpea.evaluation.table import describe
     from hdpea.evaluation.truth import read_truth
+    from hdpea.options.settings import filled
     from hdpea.reading.triangle_mesh import read_triangle_mesh
-    from hdpea.settings import filled
 
     vertices, faces = read_triangle_mesh(result)
     evaluation = evaluate(vertices, faces, read_truth(truth, filled(EvaluationOptions, values)))

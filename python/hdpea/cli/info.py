@@ -12,7 +12,7 @@ import click
 from hdpea.cli.parameters import GroupedCommand
 
 if TYPE_CHECKING:
-    from hdpea.inspection import CloudFacts
+    from hdpea.report.inspection import CloudFacts
 
 EPILOG = """\b
 Examples:
@@ -29,8 +29,8 @@ def command(source: str, as_json: bool) -> None:
 
     Lengths are in the units of the file. IN is as for reconstruct.
     """
-    from hdpea.inspection import inspect
     from hdpea.reading import read_points
+    from hdpea.report.inspection import inspect
 
     facts = inspect(read_points(source))
     click.echo(json.dumps(asdict(facts), indent=2) if as_json else _describe(facts))
@@ -62,7 +62,7 @@ def _normals(facts: CloudFacts) -> str:
         return "none usable, will be estimated" if unusable else "none, will be estimated"
     if facts.normal_agreement is None:
         return f"{usable:,} usable"
-    from hdpea.orientation import TRUSTED_CONSISTENCY
+    from hdpea.surface.orientation import TRUSTED_CONSISTENCY
 
     trusted = facts.normal_agreement >= TRUSTED_CONSISTENCY
     fate = "their orientation will be kept" if trusted else "they will be oriented anew"
@@ -70,7 +70,7 @@ def _normals(facts: CloudFacts) -> str:
 
 
 def _needs(facts: CloudFacts) -> str:
-    from hdpea.surface import MIN_POINTS
+    from hdpea.surface.surface import MIN_POINTS
 
     if facts.counts["points"] < MIN_POINTS:
         return f"at least {MIN_POINTS} points"

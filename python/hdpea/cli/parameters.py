@@ -9,10 +9,10 @@ from typing import Any, TypeVar
 import click
 from click.core import ParameterSource
 
-from hdpea.lengths import Length
 from hdpea.options import Options
-from hdpea.position import Position
-from hdpea.settings import Setting, options_from, settings
+from hdpea.options.lengths import Length
+from hdpea.options.position import Position
+from hdpea.options.settings import Setting, options_from, settings
 
 Decorated = TypeVar("Decorated", bound=Callable[..., Any])
 

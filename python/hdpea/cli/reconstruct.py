@@ -59,10 +59,10 @@ def command(
     """
     options = chosen_options(ctx, values)
     _check_outputs(source, output, report, picture)
-    from hdpea.measuring import StageClock
-    from hdpea.progress import shown, tell
     from hdpea.reading import read_points
-    from hdpea.writing import write_mesh
+    from hdpea.runtime.clock import StageClock
+    from hdpea.runtime.progress import shown, tell
+    from hdpea.writing.meshes import write_mesh
 
     clock = StageClock()
     with shown(quiet) as progress:
@@ -84,12 +84,12 @@ def command(
         if report:
             result.report.write(report)
         if picture:
-            from hdpea.picture import draw_mesh
+            from hdpea.pictures.picture import draw_mesh
 
             tell(progress, "picture", 0.0)
             draw_mesh(picture, result.vertices, result.faces)
     if not quiet:
-        from hdpea.summary import summarize
+        from hdpea.report.summary import summarize
 
         click.echo(summarize(result.report), err=True)
     if result.report.missed:
@@ -97,9 +97,9 @@ def command(
 
 
 def _check_outputs(source: str, output: Path, report: Path | None, picture: Path | None) -> None:
-    from hdpea.outputs import check_not_input, check_output
-    from hdpea.picture import PICTURE_FORMATS, check_drawing
-    from hdpea.writing import MESH_FORMATS
+    from hdpea.pictures.picture import PICTURE_FORMATS, check_drawing
+    from hdpea.runtime.outputs import check_not_input, check_output
+    from hdpea.writing.meshes import MESH_FORMATS
 
     check_output(output, MESH_FORMATS)
     check_not_input(output, source)

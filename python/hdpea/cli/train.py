@@ -11,7 +11,7 @@ from click.core import ParameterSource
 
 from hdpea.cli.parameters import GroupedCommand, GroupedOption, quiet_option, setting_options
 from hdpea.network.options import CONFIGURATIONS
-from hdpea.settings import as_dict, filled
+from hdpea.options.settings import as_dict, filled
 from hdpea.training.options import PRESETS, TrainingOptions
 
 EPILOG = """\b
@@ -92,7 +92,7 @@ def command(
         )
     options = filled(TrainingOptions, values)
     from hdpea.dataset.loading import Dataset
-    from hdpea.outputs import check_output
+    from hdpea.runtime.outputs import check_output
     from hdpea.training.journal import LAST
     from hdpea.training.stopping import stop_requests
     from hdpea.training.workers import joined_workers

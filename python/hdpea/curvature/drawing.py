@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 
 from hdpea.curvature.glyphs import PLATE, glyphs_of
 from hdpea.curvature.tensors import CurvatureTensors
-from hdpea.picture import drawn_to, light_up, look_at
-from hdpea.viewpoint import choose_view_of_points
+from hdpea.pictures.camera import choose_view_of_points
+from hdpea.pictures.picture import drawn_to, light_up, look_at
 
 Rows = NDArray[np.float64]
 

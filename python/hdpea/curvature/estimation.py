@@ -21,15 +21,16 @@ from hdpea.curvature.tensors import CurvatureTensors, Estimate, metric_tensors
 from hdpea.embedding import embed_surface
 from hdpea.embedding.embedded import Metric
 from hdpea.errors import core_errors_translated
-from hdpea.noise import roughness_of
-from hdpea.normals import ORIENTATION_NEIGHBORS, oriented_surface
-from hdpea.options import POINTS_PER_VERTEX, NormalOptions
-from hdpea.progress import ProgressCallback, tell
+from hdpea.geometry.thinning import thinned
+from hdpea.options import NormalOptions
+from hdpea.options.choice import Choice
+from hdpea.options.meshing import POINTS_PER_VERTEX
 from hdpea.reading.cloud import PointCloud, cleaned, from_arrays
-from hdpea.report import Choice
-from hdpea.surface import Surface
-from hdpea.thinning import thinned
-from hdpea.threads import limited_threads
+from hdpea.runtime.progress import ProgressCallback, tell
+from hdpea.runtime.threads import limited_threads
+from hdpea.surface.normals import ORIENTATION_NEIGHBORS, oriented_surface
+from hdpea.surface.roughness import roughness_of
+from hdpea.surface.surface import Surface
 
 
 def estimate_curvature(

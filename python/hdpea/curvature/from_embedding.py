@@ -10,8 +10,8 @@ from hdpea import _core
 from hdpea.curvature.options import EMBEDDING_NEIGHBORS
 from hdpea.curvature.tensors import Estimate
 from hdpea.embedding.embedded import Embedded
-from hdpea.report import Choice
-from hdpea.surface import Surface
+from hdpea.options.choice import Choice
+from hdpea.surface.surface import Surface
 
 LEAST_RATIO = 1.1
 """Ratio of the stretches from which the directions count as determined."""

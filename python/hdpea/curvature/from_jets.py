@@ -10,8 +10,8 @@ from hdpea import _core
 from hdpea.curvature.options import JET_NEIGHBORS, MOST_JET_NEIGHBORS
 from hdpea.curvature.tensors import Estimate
 from hdpea.embedding.embedded import Metric
-from hdpea.report import Choice
-from hdpea.surface import Surface
+from hdpea.options.choice import Choice
+from hdpea.surface.surface import Surface
 
 SURE = 0.1
 """Standard error of the directions, in radians, up to which they are determined, and a jet needs no more neighbours.

@@ -9,10 +9,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hdpea import _core
-from hdpea.colors import Colors, ratio_colors
 from hdpea.curvature.tensors import CurvatureTensors
 from hdpea.errors import core_errors_translated
-from hdpea.frame import UnitFrame
+from hdpea.geometry.unit_frame import UnitFrame
+from hdpea.pictures.colors import Colors, ratio_colors
 
 Rows = NDArray[np.float64]
 

@@ -6,7 +6,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from hdpea.errors import UsageError
-from hdpea.options import POINTS_PER_VERTEX, Checked, EmbeddingOptions, NormalOptions, option
+from hdpea.options import Checked, EmbeddingOptions, NormalOptions, option
+from hdpea.options.meshing import POINTS_PER_VERTEX
 
 EMBEDDING_NEIGHBORS = 40
 """Of the embedding's metric; the paper has 6. With noise more is better, without it makes no difference."""

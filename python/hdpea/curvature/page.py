@@ -10,11 +10,11 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from hdpea.colors import RAMP
 from hdpea.curvature.glyphs import PLATE, UNDETERMINED, glyphs_of
 from hdpea.curvature.tensors import CurvatureTensors
-from hdpea.outputs import check_output, replacing
-from hdpea.viewpoint import choose_view_of_points
+from hdpea.pictures.camera import choose_view_of_points
+from hdpea.pictures.colors import RAMP
+from hdpea.runtime.outputs import check_output, replacing
 
 PAGE_FORMATS = (".html", ".htm")
 

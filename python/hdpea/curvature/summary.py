@@ -6,7 +6,7 @@ from __future__ import annotations
 import numpy as np
 
 from hdpea.curvature.tensors import CurvatureTensors
-from hdpea.summary import describe
+from hdpea.report.summary import describe
 
 
 def summarize(tensors: CurvatureTensors) -> list[str]:

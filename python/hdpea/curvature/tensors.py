@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from hdpea.report import Choice
+from hdpea.options.choice import Choice
 
 Rows = NDArray[np.float64]
 

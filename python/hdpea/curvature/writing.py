@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 
 from hdpea.curvature.tensors import CurvatureTensors
 from hdpea.errors import UsageError
-from hdpea.outputs import check_output, replacing
-from hdpea.writing import point_ply
+from hdpea.runtime.outputs import check_output, replacing
+from hdpea.writing.meshes import point_ply
 
 Rows = NDArray[np.float64]
 

@@ -14,7 +14,6 @@ from pathlib import Path
 from hdpea.dataset.augmentation import TRANSFORMS, augmented
 from hdpea.dataset.card import write_card
 from hdpea.dataset.folder import open_folder
-from hdpea.dataset.isolation import Outcome, run_isolated
 from hdpea.dataset.making import make_sample
 from hdpea.dataset.manifest import Manifest, MeshEntry, SampleEntry, write_manifest
 from hdpea.dataset.options import DatasetOptions
@@ -24,7 +23,8 @@ from hdpea.dataset.sample_file import encoded
 from hdpea.dataset.sources import MeshSource, find_meshes
 from hdpea.dataset.surface_file import read_surface
 from hdpea.errors import QualityMissed, core_errors_translated
-from hdpea.outputs import replacing
+from hdpea.runtime.outputs import replacing
+from hdpea.runtime.processes import Outcome, run_isolated
 from hdpea.version import version
 
 IDENTITY = "identity"

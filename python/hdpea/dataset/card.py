@@ -8,7 +8,7 @@ from pathlib import Path
 
 from hdpea.dataset.manifest import Manifest, MeshEntry
 from hdpea.dataset.sources import UNSTATED
-from hdpea.outputs import replacing
+from hdpea.runtime.outputs import replacing
 
 CARD_NAME = "DATASET_CARD.md"
 

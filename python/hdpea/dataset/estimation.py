@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from hdpea.normals import oriented_surface
 from hdpea.options import NormalOptions
+from hdpea.surface.normals import oriented_surface
 
 ORIENTATION = NormalOptions(orient="wnnc")
 """By the winding number: samples are of closed surfaces, and it stands noise (paper, section 4.1)."""

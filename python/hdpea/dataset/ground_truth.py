@@ -10,11 +10,11 @@ from numpy.typing import NDArray
 
 from hdpea import _core
 from hdpea.dataset.options import GroundTruthOptions, SamplingOptions
-from hdpea.dataset.sampling import sample_surface
 from hdpea.errors import CannotReconstruct, core_errors_translated
-from hdpea.frame import UnitFrame
-from hdpea.progress import ProgressCallback, of_phase, tell
-from hdpea.triangles import area_vectors, mesh_area
+from hdpea.geometry.sampling import sample_surface
+from hdpea.geometry.triangles import area_vectors, mesh_area
+from hdpea.geometry.unit_frame import UnitFrame
+from hdpea.runtime.progress import ProgressCallback, of_phase, tell
 
 CURVATURE_SAMPLES = 100_000
 """Points of the surface whose normals curvature is fitted to."""

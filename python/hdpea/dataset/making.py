@@ -12,10 +12,10 @@ from hdpea.dataset.estimation import estimated_normals
 from hdpea.dataset.ground_truth import embed_mesh
 from hdpea.dataset.options import DatasetOptions
 from hdpea.dataset.sample import Sample
-from hdpea.dataset.sampling import sample_surface
 from hdpea.dataset.scanning import scan_surface
-from hdpea.frame import UnitFrame
-from hdpea.progress import ProgressCallback, tell
+from hdpea.geometry.sampling import sample_surface
+from hdpea.geometry.unit_frame import UnitFrame
+from hdpea.runtime.progress import ProgressCallback, tell
 
 Rows = NDArray[np.float64]
 

@@ -13,8 +13,8 @@ from pathlib import Path
 from typing import Any
 
 from hdpea.errors import UnreadableInput
-from hdpea.outputs import replacing
 from hdpea.reading import read_bytes
+from hdpea.runtime.outputs import replacing
 
 SCHEMA = 1
 MANIFEST_NAME = "manifest.json"

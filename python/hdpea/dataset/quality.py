@@ -10,7 +10,7 @@ from hdpea import _core
 from hdpea.dataset.options import GroundTruthOptions
 from hdpea.dataset.sample import Sample
 from hdpea.errors import core_errors_translated
-from hdpea.surface import area_shown
+from hdpea.surface.surface import area_shown
 
 Rows = NDArray[np.float64]
 

@@ -8,7 +8,7 @@ from typing import Any
 
 from hdpea.dataset.options import DatasetOptions
 from hdpea.errors import UnreadableInput
-from hdpea.settings import RUN, as_dict
+from hdpea.options.settings import RUN, as_dict
 
 
 def recorded_options(options: DatasetOptions) -> dict[str, dict[str, Any]]:

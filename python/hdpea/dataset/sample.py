@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from hdpea.frame import UnitFrame
+from hdpea.geometry.unit_frame import UnitFrame
 
 
 @dataclass(frozen=True)

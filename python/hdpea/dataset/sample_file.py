@@ -18,9 +18,9 @@ from numpy.typing import NDArray
 
 from hdpea.dataset.sample import Sample
 from hdpea.errors import UnreadableInput
-from hdpea.frame import UnitFrame
-from hdpea.outputs import check_output, replacing
+from hdpea.geometry.unit_frame import UnitFrame
 from hdpea.reading import DAMAGE, read_bytes
+from hdpea.runtime.outputs import check_output, replacing
 
 SCHEMA = 1
 SAMPLE_FORMATS = (".npz",)

@@ -6,9 +6,9 @@ from __future__ import annotations
 from pathlib import Path
 
 from hdpea.dataset.scanning import Scan
-from hdpea.frame import UnitFrame
-from hdpea.outputs import check_output, replacing
-from hdpea.writing import point_ply
+from hdpea.geometry.unit_frame import UnitFrame
+from hdpea.runtime.outputs import check_output, replacing
+from hdpea.writing.meshes import point_ply
 
 SENSOR_NAMES = ("sensor_x", "sensor_y", "sensor_z")
 

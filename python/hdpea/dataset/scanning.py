@@ -10,9 +10,9 @@ from numpy.typing import NDArray
 
 from hdpea.dataset.options import ScanOptions
 from hdpea.dataset.raycasting import RayCaster
-from hdpea.dataset.sampling import face_normals, points_at
 from hdpea.dataset.sensors import camera_rays, sensor_positions
 from hdpea.errors import CannotReconstruct
+from hdpea.geometry.sampling import face_normals, points_at
 
 FIRST_RESOLUTION = 64
 """Pixels across of the look that tells how many more are needed."""

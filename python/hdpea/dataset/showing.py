@@ -9,12 +9,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from hdpea.colors import MOST_ANISOTROPIC, Colors, as_bytes, ratio_colors
 from hdpea.dataset.options import GroundTruthOptions
 from hdpea.dataset.quality import spacing_of, stretches
 from hdpea.dataset.sample import Sample
-from hdpea.picture import drawn_to, look_at, point_size
-from hdpea.viewpoint import choose_view_of_points
+from hdpea.pictures.camera import choose_view_of_points
+from hdpea.pictures.colors import MOST_ANISOTROPIC, Colors, as_bytes, ratio_colors
+from hdpea.pictures.picture import drawn_to, look_at, point_size
 
 STROKES = 600
 """Strokes along the direction of the smaller curvature."""

@@ -17,14 +17,14 @@ from hdpea.embedding.direct import embed_directly
 from hdpea.embedding.embedded import Embedded
 from hdpea.embedding.learned import embed_learned
 from hdpea.errors import core_errors_translated
-from hdpea.frame import UnitFrame
-from hdpea.normals import oriented_surface
+from hdpea.geometry.unit_frame import UnitFrame
 from hdpea.options import EmbeddingOptions, Options
-from hdpea.progress import ProgressCallback, of_phase
+from hdpea.options.choice import Choice
 from hdpea.reading.cloud import cleaned, from_arrays
-from hdpea.report import Choice
-from hdpea.surface import Surface
-from hdpea.threads import limited_threads
+from hdpea.runtime.progress import ProgressCallback, of_phase
+from hdpea.runtime.threads import limited_threads
+from hdpea.surface.normals import oriented_surface
+from hdpea.surface.surface import Surface
 
 Embedder = Callable[[Surface, int, EmbeddingOptions, Callable[[float], bool]], Embedded]
 

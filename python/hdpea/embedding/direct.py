@@ -9,11 +9,11 @@ import numpy as np
 
 from hdpea import _core
 from hdpea.embedding.embedded import Embedded, Metric
-from hdpea.lengths import Length
 from hdpea.options import EmbeddingOptions
-from hdpea.report import Choice
-from hdpea.soup import triangle_soup
-from hdpea.surface import Surface
+from hdpea.options.choice import Choice
+from hdpea.options.lengths import Length
+from hdpea.surface.surface import Surface
+from hdpea.surface.triangle_soup import triangle_soup
 
 BENDING_PER_SPACING = 0.6
 """Bending length in spacings of the vertices to come: finer, and the tangent disks of neighbours disagree."""

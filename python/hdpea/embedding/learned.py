@@ -11,10 +11,10 @@ import numpy as np
 from hdpea import _core
 from hdpea.dataset.options import GroundTruthOptions
 from hdpea.embedding.embedded import Embedded, Metric
+from hdpea.geometry.thinning import thinned
 from hdpea.options import EmbeddingOptions
-from hdpea.report import Choice
-from hdpea.surface import NEIGHBORS, Surface, area_shown
-from hdpea.thinning import thinned
+from hdpea.options.choice import Choice
+from hdpea.surface.surface import NEIGHBORS, Surface, area_shown
 
 PER_VERTEX = (4.0, 12.0)
 """Points for each vertex that training has seen: 20,000 to 60,000 for 5,000 vertices."""

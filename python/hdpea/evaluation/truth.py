@@ -10,14 +10,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hdpea.dataset.options import SamplingOptions
-from hdpea.dataset.sampling import SurfaceSamples, sample_surface
 from hdpea.errors import CannotReconstruct, core_errors_translated
 from hdpea.evaluation.curvature_metric import SAMPLES, CurvatureMetric, curvature_metric
 from hdpea.evaluation.distances import SampleDistances, distances_between
 from hdpea.evaluation.options import EvaluationOptions
+from hdpea.geometry.sampling import SurfaceSamples, sample_surface
+from hdpea.geometry.triangles import mesh_area
 from hdpea.reading import read_points
 from hdpea.reading.triangle_mesh import SURFACE_FORMATS, TriangleMesh, parse_triangle_mesh, read_triangle_mesh
-from hdpea.triangles import mesh_area
 
 Rows = NDArray[np.float64]
 

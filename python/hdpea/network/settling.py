@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from hdpea import _core
 from hdpea.dataset.options import GroundTruthOptions
 from hdpea.network.clouds import CURVATURE_RADIUS
-from hdpea.soup import triangle_soup
+from hdpea.surface.triangle_soup import triangle_soup
 
 ROUNDS = 8
 """Local/global iterations; ``benchmarks/settling_table.py`` compares other numbers."""

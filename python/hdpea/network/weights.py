@@ -16,7 +16,7 @@ from safetensors.torch import save_file
 from hdpea.errors import UnreadableInput
 from hdpea.network.options import NetworkOptions
 from hdpea.network.transformer import PointTransformer
-from hdpea.outputs import replacing
+from hdpea.runtime.outputs import replacing
 
 SHIPPED = Path(__file__).with_name("compact.safetensors")
 """The weights that come along: docs/training.md says what they were trained on, and how."""

@@ -16,7 +16,7 @@ from torch import Tensor
 from hdpea.errors import UnreadableInput
 from hdpea.network.options import NetworkOptions
 from hdpea.network.transformer import PointTransformer
-from hdpea.outputs import replacing
+from hdpea.runtime.outputs import replacing
 from hdpea.training.options import CropOptions, LossOptions, TrainingOptions
 
 FORMAT = 1

@@ -10,7 +10,7 @@ from pathlib import Path
 
 from hdpea.errors import Interrupted
 from hdpea.network.options import NetworkOptions
-from hdpea.threads import limited_threads
+from hdpea.runtime.threads import limited_threads
 from hdpea.training.checkpoint import Checkpoint
 from hdpea.training.crops import Crop, Samples
 from hdpea.training.journal import LAST, Journal

@@ -10,17 +10,17 @@ from numpy.typing import NDArray
 
 from hdpea import _core
 from hdpea.dataset.sample import Sample
+from hdpea.embedding.tangents import tangent_bases
 from hdpea.errors import CannotReconstruct
 from hdpea.evaluation.curvature_metric import CurvatureMetric, root_metrics
-from hdpea.frame import UnitFrame
-from hdpea.meshing import Mesh, extract_mesh
+from hdpea.geometry.unit_frame import UnitFrame
+from hdpea.mesh.extraction import Mesh, extract_mesh
+from hdpea.mesh.particles import spread_particles
+from hdpea.mesh.refinement import refine_mesh
 from hdpea.network.inference import predict_psi
 from hdpea.network.settling import ROUNDS
 from hdpea.network.transformer import PointTransformer
-from hdpea.particles import spread_particles
-from hdpea.refinement import refine_mesh
-from hdpea.surface import Surface
-from hdpea.tangents import tangent_bases
+from hdpea.surface.surface import Surface
 
 T3_WANTED, G_WANTED = 0.95, 0.77
 """What a network is wanted to reach."""

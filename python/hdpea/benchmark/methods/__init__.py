@@ -28,11 +28,11 @@ from hdpea.benchmark.methods.options import (
     ReducedOptions,
 )
 from hdpea.errors import UsageError
-from hdpea.lengths import Length
 from hdpea.options import Options
-from hdpea.position import Position
+from hdpea.options.lengths import Length
+from hdpea.options.position import Position
+from hdpea.options.settings import options_from, settings
 from hdpea.reading.triangle_mesh import TriangleMesh
-from hdpea.settings import options_from, settings
 
 
 @dataclass(frozen=True)

@@ -11,7 +11,7 @@ from hdpea.benchmark.methods import Cloud
 from hdpea.benchmark.methods.options import CommandOptions
 from hdpea.errors import CannotReconstruct, UsageError
 from hdpea.reading.triangle_mesh import TriangleMesh, read_triangle_mesh
-from hdpea.writing import point_ply
+from hdpea.writing.meshes import point_ply
 
 
 def reconstruct(cloud: Cloud, vertices: int, options: CommandOptions) -> TriangleMesh:

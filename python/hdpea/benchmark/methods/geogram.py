@@ -19,8 +19,8 @@ from numpy.typing import NDArray
 
 from hdpea.benchmark.methods import Cloud
 from hdpea.errors import UsageError
-from hdpea.outputs import replacing
 from hdpea.reading.triangle_mesh import TriangleMesh
+from hdpea.runtime.outputs import replacing
 
 SOURCE = Path(__file__).with_suffix(".cpp")
 ANISOTROPY = 0.04

@@ -10,10 +10,10 @@ from numpy.typing import NDArray
 from hdpea import _core
 from hdpea.benchmark.methods.options import ATTEMPTS, TOLERANCE
 from hdpea.dataset.options import SamplingOptions
-from hdpea.dataset.sampling import sample_surface
 from hdpea.evaluation.curvature_metric import SAMPLES, curvature_metric
+from hdpea.geometry.sampling import sample_surface
+from hdpea.geometry.triangles import mesh_area
 from hdpea.reading.triangle_mesh import TriangleMesh, drop_unused
-from hdpea.triangles import mesh_area
 
 GRADATION = 2.3
 """Most that sizes grow by from edge to edge; mmg's own 1.3 puts small numbers of vertices out of reach."""

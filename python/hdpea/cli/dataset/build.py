@@ -55,7 +55,7 @@ def command(ctx: click.Context, /, *, meshes: str, output: Path, like: Path | No
     from hdpea.dataset.manifest import read_manifest
     from hdpea.dataset.rebuilding import require_same_bytes
     from hdpea.dataset.recorded_options import options_recorded
-    from hdpea.settings import RUN, filled, settings
+    from hdpea.options.settings import RUN, filled, settings
 
     wanted = None if like is None else read_manifest(like)
     if wanted is None:

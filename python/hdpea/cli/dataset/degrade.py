@@ -32,8 +32,8 @@ def command(source: Path, output: Path, **values: Any) -> None:
     from hdpea.dataset.degradation import degraded
     from hdpea.dataset.estimation import estimated_normals
     from hdpea.dataset.sample_file import SAMPLE_FORMATS, read_sample, write_sample
-    from hdpea.outputs import check_not_input, check_output
-    from hdpea.settings import filled
+    from hdpea.options.settings import filled
+    from hdpea.runtime.outputs import check_not_input, check_output
 
     options = filled(DegradationOptions, values)
     check_output(output, SAMPLE_FORMATS)

@@ -36,10 +36,10 @@ def command(mesh: Path, output: Path, quiet: bool, **values: Any) -> None:
     (sqrt(area / vertices)) where it says so.
     """
     from hdpea.dataset.surface_file import read_surface
-    from hdpea.outputs import check_not_input, check_output
-    from hdpea.progress import shown, tell
-    from hdpea.settings import filled
-    from hdpea.writing import POINT_FORMATS
+    from hdpea.options.settings import filled
+    from hdpea.runtime.outputs import check_not_input, check_output
+    from hdpea.runtime.progress import shown, tell
+    from hdpea.writing.meshes import POINT_FORMATS
 
     options = filled(DatasetOptions, values)
     check_output(output, POINT_FORMATS)
@@ -56,7 +56,7 @@ def command(mesh: Path, output: Path, quiet: bool, **values: Any) -> None:
         else:
             from hdpea.dataset.scan_file import write_scan
             from hdpea.dataset.scanning import scan_surface
-            from hdpea.frame import UnitFrame
+            from hdpea.geometry.unit_frame import UnitFrame
 
             tell(progress, "scanning", 0.0)
             frame = UnitFrame.around(vertices)

@@ -27,8 +27,8 @@ def command(source: Path, output: Path) -> None:
     """
     from hdpea.dataset.sample_file import read_sample
     from hdpea.dataset.showing import draw_sample
-    from hdpea.outputs import check_output
-    from hdpea.picture import PICTURE_FORMATS, check_drawing
+    from hdpea.pictures.picture import PICTURE_FORMATS, check_drawing
+    from hdpea.runtime.outputs import check_output
 
     check_output(output, PICTURE_FORMATS)
     check_drawing()

@@ -1,0 +1,35 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""How many vertices or faces are wanted, and by how much a mesh misses that."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from hdpea.mesh.extraction import Mesh
+from hdpea.options import MeshingOptions
+
+TOLERANCE = 0.01
+"""Share of what was asked for by which a mesh may miss it; one vertex, or face, is always allowed."""
+
+
+@dataclass(frozen=True)
+class Budget:
+    """Vertices, or faces, that a mesh is to have; None if any number will do."""
+
+    asked: int | None
+    counts_faces: bool
+
+    @classmethod
+    def of(cls, options: MeshingOptions) -> Budget:
+        """Return what the options ask for."""
+        return cls(options.vertices if options.faces is None else options.faces, options.faces is not None)
+
+    def excess(self, mesh: Mesh) -> float:
+        """Return what the mesh has too many of, as a share of what was asked for.
+
+        Less than 0 if it has too few, and 0 if it is as asked, but for the tolerance.
+        """
+        if self.asked is None:
+            return 0.0
+        more = len(mesh.faces if self.counts_faces else mesh.vertices_in_unit) - self.asked
+        return more / self.asked if abs(more) > max(TOLERANCE * self.asked, 1) else 0.0

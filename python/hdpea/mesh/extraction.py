@@ -1,0 +1,120 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""From particles to a manifold mesh: restricted Voronoi cells, extraction, holes."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+from math import inf
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hdpea import _core
+from hdpea.errors import CannotReconstruct, core_errors_translated
+from hdpea.geometry.triangles import mesh_area
+from hdpea.geometry.unit_frame import UnitFrame
+from hdpea.mesh.cells import restricted_cells
+from hdpea.mesh.coverage import covered
+from hdpea.mesh.particles import Particles
+from hdpea.options import MeshingOptions
+from hdpea.options.choice import Choice
+from hdpea.surface.surface import Surface
+
+DISK_RADIUS = 1.8
+"""Radius of the disks in mean distances of the particles in R^d."""
+
+HOLES_FILLED = 4.0
+"""Size of the largest hole that is filled unasked, in spacings of the particles in R^3."""
+
+
+@dataclass(frozen=True)
+class Mesh:
+    """A triangle mesh in the unit frame.
+
+    Attributes
+    ----------
+    vertices_in_unit
+        (v, 3) float64.
+    faces
+        (f, 3) int64, counter-clockwise seen from outside; edge- and vertex-manifold.
+    coordinates
+        (v, d) float64: where the vertices are in the embedding; a fit to the points does not move them there.
+    statistics
+        What became of the candidate triangles and of the holes, by name; of the mesh before it was simplified.
+    choices
+        The lengths that were chosen automatically, in world units.
+    """
+
+    vertices_in_unit: NDArray[np.float64]
+    faces: NDArray[np.int64]
+    coordinates: NDArray[np.float64]
+    statistics: dict[str, int | float] = field(default_factory=dict)
+    choices: tuple[Choice, ...] = ()
+
+
+def extract_mesh(
+    particles: Particles,
+    bases: NDArray[np.float64],
+    surface: Surface,
+    options: MeshingOptions | None = None,
+    left: float = 1.0,
+) -> Mesh:
+    """Join particles to a mesh.
+
+    Parameters
+    ----------
+    bases
+        (n, 2, d) tangent bases of the cloud.
+    surface
+        Where the normals come from.
+    left
+        Share of the vertices that a simplification will leave: pieces that would have too few faces then are dropped.
+
+    Raises
+    ------
+    CannotReconstruct
+        If no triangle can be made.
+    """
+    options = options or MeshingOptions()
+    with core_errors_translated():
+        normals = np.ascontiguousarray(surface.normals[particles.nearest])
+        candidates, radii = restricted_cells(particles.coordinates, bases[particles.nearest], DISK_RADIUS)
+        on_points = covered(candidates, particles, surface)
+        why = f"{DISK_RADIUS:g} mean distances of the particles in the embedding; more where they are sparse"
+        smallest = float(radii.min()) * surface.frame.diagonal
+        disks = Choice("disk_radius", smallest, "world units under the metric", why)
+        limits = _core.ExtractionOptions()
+        limits.min_component_faces = round(options.min_component / left)
+        extracted = _core.extract_manifold(particles.coordinates, normals, radii, on_points, limits)
+        if len(extracted.faces) == 0:
+            raise CannotReconstruct(
+                "No triangle holds on these points.", "They may be too few or too noisy; try fewer --particles."
+            )
+        coordinates = particles.coordinates[extracted.sources]
+        mesh = _fill_holes(coordinates, extracted, surface.frame, options)
+        refused = {"refused_uncovered": len(candidates.triangles) - len(on_points.triangles)}
+        return replace(mesh, statistics=refused | mesh.statistics, choices=(disks, *mesh.choices))
+
+
+def _fill_holes(
+    coordinates: NDArray[np.float64], extracted: _core.ExtractedMesh, frame: UnitFrame, options: MeshingOptions
+) -> Mesh:
+    vertices = np.ascontiguousarray(coordinates[:, :3])
+    choices: tuple[Choice, ...] = ()
+    if options.watertight:
+        size = inf
+    elif options.fill_holes is not None:
+        size = frame.length_to_unit(options.fill_holes)
+    else:
+        size = HOLES_FILLED * float(np.sqrt(mesh_area(vertices, extracted.faces) / len(vertices)))
+        why = f"{HOLES_FILLED:g} spacings of the particles"
+        choices = (Choice("fill_holes", size * frame.diagonal, "world units", why),)
+    filled = _core.fill_holes(vertices, extracted.faces, size)
+    statistics: dict[str, int | float] = {
+        name: getattr(extracted.counts, name) for name in dir(extracted.counts) if not name.startswith("_")
+    }
+    statistics["holes_filled"] = filled.filled
+    statistics["holes_left"] = filled.left
+    statistics["faces_joined"] = len(filled.faces)
+    centres = _core.nearest_neighbors(vertices, filled.vertices[len(vertices) :], 1)[:, 0]
+    return Mesh(filled.vertices, filled.faces, np.vstack([coordinates, coordinates[centres]]), statistics, choices)

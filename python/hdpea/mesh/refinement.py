@@ -1,0 +1,35 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Fitting a mesh to the cloud it was made from."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+
+from hdpea import _core
+from hdpea.errors import core_errors_translated
+from hdpea.mesh.extraction import Mesh
+from hdpea.options import RefinementOptions
+from hdpea.surface.surface import Surface
+
+
+def refine_mesh(
+    mesh: Mesh,
+    surface: Surface,
+    options: RefinementOptions | None = None,
+    progress: Callable[[float], bool] | None = None,
+) -> Mesh:
+    """Return the mesh with its vertices moved so that the faces run through the points (least squares).
+
+    Faces, and with them manifoldness and topology, stay as they are.
+    """
+    options = options or RefinementOptions()
+    if not options.refine:
+        return mesh
+    fit = _core.RefinementOptions()
+    fit.rounds = options.rounds
+    with core_errors_translated():
+        vertices = _core.refine_vertices(
+            mesh.vertices_in_unit, mesh.faces, surface.points_in_unit, surface.normals, fit, progress
+        )
+    return replace(mesh, vertices_in_unit=vertices)

@@ -1,0 +1,35 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Options that check themselves: fields with a help text and what is legal."""
+
+from __future__ import annotations
+
+from dataclasses import Field, dataclass, field, fields
+from typing import Any
+
+from hdpea.errors import UsageError
+
+
+def option(default: Any, help: str, **metadata: Any) -> Any:
+    """Return a dataclass field that carries its help text and what is legal: ``choices``, ``minimum``, ``maximum``."""
+    return field(default=default, metadata={"help": help, **metadata})
+
+
+def _check(field: Field[Any], value: Any) -> None:
+    choices = field.metadata.get("choices")
+    minimum, maximum = field.metadata.get("minimum"), field.metadata.get("maximum")
+    if choices is not None and value not in choices:
+        raise UsageError(f"{field.name} is one of {', '.join(choices)}, not {value!r}.")
+    # Written so that NaN is refused too.
+    if minimum is not None and value is not None and not value >= minimum:
+        raise UsageError(f"{field.name} is at least {minimum}, not {value}.")
+    if maximum is not None and value is not None and not value <= maximum:
+        raise UsageError(f"{field.name} is at most {maximum}, not {value}.")
+
+
+@dataclass(frozen=True)
+class Checked:
+    """Base of the options: checks every value against its field's choices, minimum and maximum."""
+
+    def __post_init__(self) -> None:
+        for each in fields(self):
+            _check(each, getattr(self, each.name))

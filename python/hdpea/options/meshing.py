@@ -1,0 +1,49 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Options of the extraction of a mesh, and the number of its vertices or faces."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from hdpea.errors import UsageError
+from hdpea.options.checked import Checked, option
+from hdpea.options.lengths import Length
+
+POINTS_PER_VERTEX = 8
+"""How many points share a vertex unless a number of vertices or faces is asked for."""
+
+
+@dataclass(frozen=True)
+class MeshingOptions(Checked):
+    """How the particles become a mesh (``hdpea.mesh.extraction``)."""
+
+    vertices: int | None = option(
+        None, f"vertices wanted; default: one for every {POINTS_PER_VERTEX} points", minimum=4
+    )
+    faces: int | None = option(None, "faces wanted, instead of --vertices", minimum=4)
+    fill_holes: Length | None = option(
+        None, "fill holes up to this size across, as 0.02 or 1%; default: 4 times the spacing of the particles; 0: none"
+    )
+    watertight: bool = option(False, "close every hole, whatever its size")
+    min_component: int = option(
+        16,
+        "drop connected pieces of fewer faces than this, or of as small a share of the mesh that is to be simplified; "
+        "the largest stays",
+        minimum=0,
+    )
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        if self.vertices is not None and self.faces is not None:
+            raise UsageError("Vertices and faces exclude each other.", "Ask for one; the other follows from it.")
+
+    @property
+    def any_size(self) -> bool:
+        """Whether no number of vertices or faces is asked for."""
+        return self.vertices is None and self.faces is None
+
+    def vertices_of(self, points: int) -> int:
+        """Return how many vertices to make of so many points: a closed mesh has two faces for each."""
+        if self.vertices is not None:
+            return self.vertices
+        return self.faces // 2 + 2 if self.faces is not None else max(points // POINTS_PER_VERTEX, 12)

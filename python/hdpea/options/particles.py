@@ -1,0 +1,29 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Options of the particles."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from hdpea.options.checked import Checked, option
+from hdpea.options.meshing import POINTS_PER_VERTEX
+
+ENOUGH_PARTICLES, ENOUGH_PER_VERTEX = 20_000, 2
+"""As many particles show any surface, or so many for each vertex of its mesh: more points do not make them more."""
+
+WORTH_SIMPLIFYING = 1.2
+"""From so many particles for each vertex on, their mesh simplified errs less; with fewer, G is lost for nothing."""
+
+
+@dataclass(frozen=True)
+class ParticleOptions(Checked):
+    """How particles are spread (``hdpea.mesh.particles``)."""
+
+    particles: int | None = option(
+        None,
+        "particles to spread; their mesh is simplified where fewer vertices are wanted; default: one for every "
+        f"{POINTS_PER_VERTEX} points, at most {ENOUGH_PARTICLES:,} or {ENOUGH_PER_VERTEX} for each vertex",
+        minimum=4,
+    )
+    iterations: int = option(100, "steps of the particles' energy descent", minimum=0)
+    seed: int = option(0, "seed of everything random; the same seed gives the same bytes", minimum=0)

@@ -1,0 +1,55 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Options of a whole reconstruction."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from hdpea.errors import UsageError
+from hdpea.options.checked import Checked, option
+from hdpea.options.denoising import DenoisingOptions
+from hdpea.options.embedding import EmbeddingOptions
+from hdpea.options.meshing import POINTS_PER_VERTEX, MeshingOptions
+from hdpea.options.normals import NormalOptions
+from hdpea.options.particles import ENOUGH_PARTICLES, ENOUGH_PER_VERTEX, WORTH_SIMPLIFYING, ParticleOptions
+from hdpea.options.refinement import RefinementOptions
+
+
+@dataclass(frozen=True)
+class Options(Checked):
+    """Everything ``hdpea.reconstruct`` can be told."""
+
+    normals: NormalOptions = NormalOptions()
+    denoising: DenoisingOptions = DenoisingOptions()
+    embedding: EmbeddingOptions = EmbeddingOptions()
+    particles: ParticleOptions = ParticleOptions()
+    meshing: MeshingOptions = MeshingOptions()
+    refinement: RefinementOptions = RefinementOptions()
+    threads: int = option(0, "threads to use; 0: all cores (the result is the same for any number)", minimum=0)
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        given = self.particles.particles
+        if given is not None and given < (vertices := self.vertices_of(given)):
+            raise UsageError(
+                f"{given} particles cannot make {vertices} vertices.", "Spread at least one particle for each vertex."
+            )
+
+    def vertices_of(self, points: int) -> int:
+        """Return how many vertices to make of so many points."""
+        given = self.particles.particles
+        if given is not None and self.meshing.any_size:
+            return given
+        return self.meshing.vertices_of(points)
+
+    def particles_of(self, points: int) -> int:
+        """Return how many particles to spread on so many points: at least one for each vertex.
+
+        A mesh of few vertices is not made of few particles, which cannot show parts thinner than they are apart: it
+        is simplified from a mesh of more.
+        """
+        if self.particles.particles is not None:
+            return self.particles.particles
+        vertices = self.meshing.vertices_of(points)
+        shown = min(points // POINTS_PER_VERTEX, max(ENOUGH_PARTICLES, ENOUGH_PER_VERTEX * vertices))
+        return shown if shown >= WORTH_SIMPLIFYING * vertices else vertices

@@ -1,0 +1,145 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The report of a run: what was asked, chosen, found and measured."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import asdict, dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hdpea.options import Options
+from hdpea.options.choice import Choice
+from hdpea.options.settings import as_dict
+from hdpea.reading import PointCloud
+from hdpea.runtime.clock import StageClock
+from hdpea.runtime.outputs import replacing
+from hdpea.version import version
+
+
+@dataclass(frozen=True)
+class MeshFacts:
+    """What kind of surface the mesh is; ``genus`` is None unless it is closed (and summed over components)."""
+
+    vertices: int
+    faces: int
+    manifold: bool
+    closed: bool
+    components: int
+    boundary_loops: int
+    genus: int | None
+    self_intersections: int | None = None
+
+
+@dataclass(frozen=True)
+class Distances:
+    """Distances from the points to the mesh, in world units and in spacings of the points."""
+
+    spacing: float
+    mean: float
+    rms: float
+    percentile_95: float
+    max: float
+
+    @classmethod
+    def of(cls, distances: NDArray[np.float64], spacing: float) -> Distances:
+        """Sum up the distance of each point (n,), n > 0, both in world units."""
+        return cls(
+            spacing=float(spacing),
+            mean=float(distances.mean()),
+            rms=float(np.sqrt(np.mean(distances**2))),
+            percentile_95=float(np.percentile(distances, 95)),
+            max=float(distances.max()),
+        )
+
+    def as_dict(self) -> dict[str, Any]:
+        """Return both units side by side, fit for JSON."""
+        in_world = {name: value for name, value in asdict(self).items() if name != "spacing"}
+        in_spacings = {name: value / self.spacing for name, value in in_world.items()} if self.spacing > 0 else None
+        return {"spacing": self.spacing, "in_world_units": in_world, "in_spacings": in_spacings}
+
+
+@dataclass
+class Report:
+    """Filled by the stages as they go; everything but the options may be missing.
+
+    Attributes
+    ----------
+    options
+        What was asked; the seed is among them.
+    source
+        What was read, filled by the command line.
+    counts
+        How many points there were, how many were dropped and why, how many had normals, by name.
+    choices
+        Every value that was chosen automatically.
+    meshing
+        T3, T12, refused triangles, holes and so on, by name.
+    mesh, distances
+        What came out.
+    notes
+        Sentences for the user: what is unusual about this input or this result.
+    missed
+        Sentences saying which wishes were not met; any of them makes the command end with exit code 5.
+    clock
+        Times and peak memory, stage by stage.
+    """
+
+    options: Options
+    source: dict[str, Any] = field(default_factory=dict)
+    counts: dict[str, int] = field(default_factory=dict)
+    choices: list[Choice] = field(default_factory=list)
+    meshing: dict[str, int | float] = field(default_factory=dict)
+    mesh: MeshFacts | None = None
+    distances: Distances | None = None
+    notes: list[str] = field(default_factory=list)
+    missed: list[str] = field(default_factory=list)
+    clock: StageClock = field(default_factory=StageClock)
+
+    def begin_with(self, name: str, cloud: PointCloud, clock: StageClock) -> None:
+        """Put the reading of the input, and what it took, before everything else."""
+        self.source = {"name": name, "format": cloud.format}
+        # Reading dropped what the stages did not get to see.
+        self.counts |= cloud.counts()
+        self.notes[:] = [*cloud.notes, *(note for note in self.notes if note not in cloud.notes)]
+        self.clock.stages[:0] = clock.stages
+
+    def as_dict(self) -> dict[str, Any]:
+        """Return the whole report, fit for JSON."""
+        return {
+            "version": version(),
+            "options": as_dict(self.options),
+            "source": self.source,
+            "counts": self.counts,
+            "choices": [asdict(choice) for choice in self.choices],
+            "meshing": self.meshing,
+            "mesh": asdict(self.mesh) if self.mesh else None,
+            "distances": self.distances.as_dict() if self.distances else None,
+            "notes": self.notes,
+            "missed": self.missed,
+            "stages": [asdict(stage) for stage in self.clock.stages],
+            "total": asdict(self.clock.total()),
+        }
+
+    def write(self, path: Path) -> None:
+        """Write the report as JSON, whole or not at all.
+
+        Raises
+        ------
+        UsageError
+            If the file cannot be written.
+        """
+        with replacing(path) as partial:
+            # JSON has no NaN, and a report must not fail for one: it becomes null.
+            strict = json.loads(json.dumps(self.as_dict(), default=_plain), parse_constant=lambda _: None)
+            partial.write_text(json.dumps(strict, indent=2) + "\n")
+
+
+def _plain(value: Any) -> Any:
+    """Turn numpy's numbers into Python's, which is all that JSON knows."""
+    if isinstance(value, np.generic):
+        return value.item()
+    raise TypeError(f"{type(value).__name__} does not fit into a report")

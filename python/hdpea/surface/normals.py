@@ -1,0 +1,148 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Normals: taken from the file where they are usable, else estimated; always consistently oriented."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hdpea import _core
+from hdpea.errors import UnreadableInput, core_errors_translated
+from hdpea.geometry.unit_frame import UnitFrame
+from hdpea.options import NormalOptions
+from hdpea.options.choice import Choice
+from hdpea.runtime.progress import ProgressCallback, of_phase, tell
+from hdpea.surface.orientation import Unoriented, Vectors, orient, require_signs
+from hdpea.surface.roughness import Roughness, roughness_of
+from hdpea.surface.surface import NEIGHBORS, Surface, require_surface
+
+ORIENTATION_NEIGHBORS = 16
+"""Nearest points to which a point hands on its orientation, and fewest that an estimated normal is fitted to."""
+
+NEIGHBORS_PER_NOISE, MOST_NEIGHBORS = 240, 80
+"""Of an estimated normal: for each spacing of noise, and the most.
+
+A plane's slope is off by 2 sqrt(pi) noise / (spacing n) with n neighbours: so by a degree."""
+
+
+@dataclass(frozen=True)
+class OrientedSurface:
+    """A surface, and how it came by its normals.
+
+    Attributes
+    ----------
+    roughness
+        Of the points as given.
+    estimated
+        How many normals had to be estimated.
+    consistency
+        Share of neighbours whose given normals agreed in orientation; None without given normals.
+    reoriented
+        Whether the orientation was made anew, whatever the given normals say.
+    choices
+        What was chosen automatically.
+    """
+
+    surface: Surface
+    roughness: Roughness
+    estimated: int
+    consistency: float | None
+    reoriented: bool
+    choices: tuple[Choice, ...] = ()
+
+
+def oriented_surface(
+    points_in_world: NDArray[np.float64],
+    normals: NDArray[np.float64] | None = None,
+    options: NormalOptions | None = None,
+    points_per_vertex: float = 8.0,
+    progress: ProgressCallback | None = None,
+    sensors_in_world: NDArray[np.float64] | None = None,
+) -> OrientedSurface:
+    """Move a cloud to its unit frame and give it consistently oriented normals.
+
+    Given normals keep their directions; their signs are kept only if neighbours agree about them, so a
+    cloud whose normals point both ways gives the same surface as one that is well oriented. The option
+    `orient` has it otherwise.
+
+    Parameters
+    ----------
+    points_in_world
+        (n, 3) float64, finite and distinct.
+    normals
+        (n, 3) float64 of length 1, or 0 where unusable.
+    points_per_vertex
+        Points for each vertex that the mesh will have: with more, normals are fitted to more neighbours, so
+        that noise averages out in a redundant cloud.
+    sensors_in_world
+        (n, 3) float64, from where each point was seen; needed only to orient by viewpoint.
+
+    Raises
+    ------
+    CannotReconstruct
+        If the points are too few, equal or on a line.
+    UnreadableInput
+        If the file's normals, or their signs, are insisted on and unusable.
+    UsageError
+        If normals are to be turned to a viewpoint and there is none.
+    """
+    options = options or NormalOptions()
+    given = np.zeros_like(points_in_world) if normals is None else normals
+    usable: NDArray[np.bool_] = np.asarray(given.any(axis=1))
+    if options.normals == "file" and not usable.all():
+        raise UnreadableInput(
+            f"{int((~usable).sum())} points have no usable normal.", "Use --normals auto to estimate those."
+        )
+    require_signs(given, sensors_in_world, options)
+    if options.normals == "estimate":
+        usable[:] = False
+    frame = UnitFrame.around(points_in_world)
+    points = frame.to_unit(points_in_world)
+    require_surface(points)
+    tell(progress, "normals", 0)
+    with core_errors_translated():
+        neighbors = _core.nearest_neighbors(points, NEIGHBORS)
+        nearest = np.ascontiguousarray(neighbors[:, :ORIENTATION_NEIGHBORS])
+        roughness = roughness_of(points)
+        directions, choices = _directions(points, given, usable, neighbors, roughness, options, points_per_vertex)
+        # Where normals are to be estimated whatever is given, what is given has no say unless it is asked for.
+        heard = given if options.orient == "file" else np.where(usable[:, None], given, 0)
+        cloud = Unoriented(points, directions, ~usable, heard, nearest, roughness)
+        seen_from = sensors_in_world if options.viewpoint is None else options.viewpoint.as_array()
+        towards = None if seen_from is None else frame.to_unit(seen_from)
+        orientation = orient(cloud, options.orient, towards, of_phase(progress, "normals"))
+        if options.orient == "auto":
+            choices += (Choice("orient", orientation.way, "", orientation.why),)
+        consistency = cloud.consistency
+    tell(progress, "normals", 1)
+    surface = Surface.of(frame, points, orientation.normals, neighbors)
+    reoriented = orientation.way != "file"
+    return OrientedSurface(surface, roughness, int((~usable).sum()), consistency, reoriented, choices)
+
+
+def _directions(
+    points: Vectors,
+    given: Vectors,
+    usable: NDArray[np.bool_],
+    neighbors: NDArray[np.int64],
+    roughness: Roughness,
+    options: NormalOptions,
+    points_per_vertex: float,
+) -> tuple[Vectors, tuple[Choice, ...]]:
+    """Return normals (n, 3) of any sign, the `given` ones where they are `usable`, and what was chosen for them."""
+    if usable.all():
+        return given, ()
+    count = options.normal_neighbors
+    choices: tuple[Choice, ...] = ()
+    if count is None:
+        enough = min(round(NEIGHBORS_PER_NOISE * roughness.noise), MOST_NEIGHBORS)
+        count = max(ORIENTATION_NEIGHBORS, min(round(2 * points_per_vertex), NEIGHBORS), enough)
+        why = f"twice the points per particle, from {ORIENTATION_NEIGHBORS} to {NEIGHBORS}"
+        if count == enough:
+            why = str(roughness)
+        choices = (Choice("normal_neighbors", count, "points", why),)
+    fitted = neighbors if count <= NEIGHBORS else _core.nearest_neighbors(points, count)
+    estimated = _core.estimate_normals(points, np.ascontiguousarray(fitted[:, :count]))
+    return np.where(usable[:, None], given, estimated), choices

@@ -1,0 +1,141 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Meshes and embedded points to files, without losing a digit the format can hold."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from pathlib import Path
+
+import numpy as np
+from numpy.lib.recfunctions import repack_fields
+from numpy.typing import NDArray
+from plyfile import PlyData, PlyElement
+
+from hdpea.runtime.outputs import check_output, replacing
+
+Points = NDArray[np.float64]
+Faces = NDArray[np.int64]
+
+FLOAT32_LOSS = 1e-6
+"""Largest share of the diagonal that a vertex may move by being stored in single precision."""
+
+
+def write_mesh(path: Path, vertices: Points, faces: Faces) -> None:
+    """Write a triangle mesh as OBJ, PLY, OFF, STL or GLB, by the extension of `path`.
+
+    OBJ, PLY and OFF hold the vertices exactly. STL is binary, or text where single precision would
+    move the vertices of a georeferenced mesh. GLB is shifted to its centre; its node holds the shift.
+
+    Parameters
+    ----------
+    path
+        Replaced only once the new file is complete.
+    vertices
+        (v, 3) float64.
+    faces
+        (f, 3) indices of vertices.
+
+    Raises
+    ------
+    UsageError
+        If the file cannot be written.
+    """
+    check_output(path, MESH_FORMATS)
+    with replacing(path) as partial:
+        partial.write_bytes(MESH_FORMATS[path.suffix.lower()](vertices, faces))
+
+
+def write_points(path: Path, points: Points, normals: Points, coordinates: Points) -> None:
+    """Write embedded points as NPZ (arrays of these names) or PLY (embedding_0 to embedding_7).
+
+    Parameters
+    ----------
+    path
+        Replaced only once the new file is complete.
+    points, normals
+        (n, 3) float64.
+    coordinates
+        (n, 8) float64, the embedding.
+
+    Raises
+    ------
+    UsageError
+        If the file cannot be written.
+    """
+    check_output(path, POINT_FORMATS)
+    with replacing(path) as partial:
+        if path.suffix.lower() == ".npz":
+            np.savez(partial, points=points, normals=normals, coordinates=coordinates)
+        else:
+            others = {f"embedding_{i}": column for i, column in enumerate(coordinates.T)}
+            partial.write_bytes(point_ply(points, normals, others))
+
+
+def point_ply(points: Points, normals: Points, others: Mapping[str, NDArray[np.float64]]) -> bytes:
+    """Return the content of a PLY file of points (n, 3), their normals (n, 3) and other properties by name (n,)."""
+    table = np.column_stack([points, normals, *others.values()])
+    return _ply(_records(table, ["x", "y", "z", "nx", "ny", "nz", *others]))
+
+
+def _obj(vertices: Points, faces: Faces) -> bytes:
+    return _lines(vertices, "v ") + _lines(faces + 1, "f ")
+
+
+def _off(vertices: Points, faces: Faces) -> bytes:
+    return f"OFF\n{len(vertices)} {len(faces)} 0\n".encode() + _lines(vertices) + _lines(faces, "3 ")
+
+
+def _lines(rows: Points | Faces, prefix: str = "") -> bytes:
+    # repr is the shortest text that reads back as the same number.
+    return "".join(f"{prefix}{' '.join(map(repr, row))}\n" for row in rows.tolist()).encode()
+
+
+def _ply(vertex: NDArray[np.void], faces: Faces | None = None) -> bytes:
+    elements, body = [PlyElement.describe(vertex, "vertex")], vertex.tobytes()
+    if faces is not None:
+        # The library writes lists one by one; every list here is three long, which makes it a table.
+        table = np.empty(len(faces), [("count", "u1"), ("vertex_indices", "<i4", 3)])
+        table["count"], table["vertex_indices"] = 3, faces
+        body += table.tobytes()
+        elements.append(PlyElement.describe(repack_fields(table[["vertex_indices"]]), "face"))
+    header: str = PlyData(elements, byte_order="<").header
+    return f"{header}\n".encode() + body
+
+
+def _records(table: Points, names: list[str]) -> NDArray[np.void]:
+    return np.ascontiguousarray(table, "<f8").view([(name, "<f8") for name in names])[:, 0]
+
+
+def _stl(vertices: Points, faces: Faces) -> bytes:
+    import trimesh  # takes a second, which the other formats need not wait for
+
+    mesh = trimesh.Trimesh(vertices, faces, process=False)
+    loss = abs(vertices - vertices.astype(np.float32)).max(initial=0)
+    if loss > FLOAT32_LOSS * np.linalg.norm(np.ptp(vertices, axis=0)):
+        return trimesh.exchange.stl.export_stl_ascii(mesh).encode()
+    return trimesh.exchange.stl.export_stl(mesh)
+
+
+def _glb(vertices: Points, faces: Faces) -> bytes:
+    import trimesh
+
+    center = (vertices.min(axis=0) + vertices.max(axis=0)) / 2
+    scene = trimesh.Scene()
+    scene.add_geometry(
+        trimesh.Trimesh(vertices - center, faces, process=False),
+        node_name="mesh",
+        geom_name="mesh",
+        transform=trimesh.transformations.translation_matrix(center),
+    )
+    content: bytes = trimesh.exchange.gltf.export_glb(scene)
+    return content
+
+
+MESH_FORMATS: dict[str, Callable[[Points, Faces], bytes]] = {
+    ".obj": _obj,
+    ".ply": lambda vertices, faces: _ply(_records(vertices, ["x", "y", "z"]), faces),
+    ".off": _off,
+    ".stl": _stl,
+    ".glb": _glb,
+}
+POINT_FORMATS = (".npz", ".ply")

@@ -1,0 +1,241 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The commands, their flags and their outputs; stand-ins where a test needs the work to go wrong."""
+
+from __future__ import annotations
+
+import json
+import sys
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+import trimesh
+from helpers import clouds, standins
+from helpers.files import WITH_NORMALS
+from helpers.shapes import sphere
+
+from hdpea.cli import run
+from hdpea.reading import read_points
+from hdpea.reconstruction import PHASES
+from hdpea.writing.meshes import MESH_FORMATS
+
+Capture = pytest.CaptureFixture[str]
+
+
+@pytest.fixture
+def stand_ins(monkeypatch: pytest.MonkeyPatch) -> None:
+    for name in ("hdpea.reconstruction", "hdpea.embedding"):
+        monkeypatch.setitem(sys.modules, name, sys.modules.get(name))
+    standins.install()
+
+
+@pytest.fixture
+def scan(tmp_path: Path) -> str:
+    np.savetxt(tmp_path / "scan.xyz", np.hstack(clouds.torus(800)))
+    return str(tmp_path / "scan.xyz")
+
+
+def test_a_mesh_is_made_and_summed_up(scan: str, tmp_path: Path, capsys: Capture) -> None:
+    assert run(["reconstruct", scan, str(tmp_path / "mesh.obj")]) == 0
+    assert len(trimesh.load(tmp_path / "mesh.obj", process=False).faces) == 200
+    told = capsys.readouterr()
+    assert told.out == ""
+    assert "reading ..." in told.err
+    assert "vertices: 100 (one for every 8 points)" in told.err
+    assert "mesh: 100 vertices, 200 faces, manifold, closed, 1 component, genus 1" in told.err
+    assert "points to mesh: rms" in told.err
+
+
+def test_quiet_is_silent(scan: str, tmp_path: Path, capsys: Capture) -> None:
+    assert run(["reconstruct", scan, str(tmp_path / "mesh.obj"), "--quiet"]) == 0
+    assert capsys.readouterr() == ("", "")
+
+
+def test_the_report_knows_the_flags_and_the_stages(scan: str, tmp_path: Path) -> None:
+    arguments = [
+        "reconstruct",
+        scan,
+        str(tmp_path / "mesh.ply"),
+        "--vertices",
+        "80",
+        "--fill-holes",
+        "2%",
+        "--seed",
+        "5",
+    ]
+    assert run([*arguments, "--report", str(tmp_path / "report.json")]) == 0
+    report = json.loads((tmp_path / "report.json").read_text())
+    assert report["options"]["meshing"]["vertices"] == report["mesh"]["vertices"] == 80
+    assert report["options"]["meshing"]["fill_holes"] == "2%"
+    assert report["options"]["particles"]["seed"] == 5
+    assert report["counts"]["points"] == 800
+    assert report["source"] == {"name": scan, "format": "text, 6 columns"}
+    *before, measuring = PHASES
+    expected = ["reading", "start-up", *before, "refinement", measuring, "writing"]
+    assert [stage["name"] for stage in report["stages"]] == expected
+
+
+@pytest.mark.parametrize("extension", MESH_FORMATS)
+def test_every_format_holds_the_whole_mesh(extension: str, scan: str, tmp_path: Path) -> None:
+    assert run(["reconstruct", scan, str(tmp_path / f"mesh{extension}"), "--quiet"]) == 0
+    mesh = trimesh.load(tmp_path / f"mesh{extension}", force="mesh")
+    assert len(mesh.faces) == 200
+    assert mesh.is_watertight
+
+
+@pytest.mark.slow
+def test_a_picture_is_drawn(scan: str, tmp_path: Path) -> None:
+    assert run(["reconstruct", scan, str(tmp_path / "mesh.obj"), "--picture", str(tmp_path / "mesh.png")]) == 0
+    assert (tmp_path / "mesh.png").read_bytes().startswith(b"\x89PNG")
+
+
+def test_an_embedding_is_written(scan: str, tmp_path: Path, capsys: Capture) -> None:
+    assert run(["embed", scan, str(tmp_path / "points.npz"), "--normals", "estimate"]) == 0
+    written = read_points(tmp_path / "points.npz")
+    assert written.attributes["coordinates"].shape == (800, 8)
+    np.testing.assert_allclose(written.points, clouds.torus(800)[0])
+    told = capsys.readouterr().err
+    assert "bending_length: " in told
+    assert "normal_neighbors: 16 points" in told
+
+
+def test_normals_are_turned_to_the_sensors_that_the_file_names(tmp_path: Path) -> None:
+    points, normals = clouds.torus(800)
+    sensors = points - 0.1 * normals  # inside
+    np.savez(tmp_path / "array.npz", points=points, sensor=sensors)
+    header = "x,y,z,sensor_x,sensor_y,sensor_z"
+    np.savetxt(tmp_path / "columns.csv", np.hstack([points, sensors]), delimiter=",", header=header, comments="")
+    for name in ("array.npz", "columns.csv"):
+        output = tmp_path / f"{name}.npz"
+        assert run(["embed", str(tmp_path / name), str(output), "--orient", "viewpoint", "--quiet"]) == 0
+        written = read_points(output).normals
+        assert written is not None
+        assert (np.einsum("nc,nc->n", written, normals) < 0).all()
+
+
+def test_normals_are_turned_to_the_viewpoint(scan: str, tmp_path: Path) -> None:
+    arguments = ["--orient", "viewpoint", "--viewpoint", "-1,-2,-3.5", "--report", str(tmp_path / "report.json")]
+    assert run(["reconstruct", scan, str(tmp_path / "mesh.ply"), "--fill-holes", "0", *arguments]) == 0
+    assert json.loads((tmp_path / "report.json").read_text())["options"]["normals"]["viewpoint"] == "-1,-2,-3.5"
+
+
+def test_signs_that_the_file_lacks_are_unreadable(tmp_path: Path, failed: Callable[..., str]) -> None:
+    np.savetxt(tmp_path / "scan.xyz", clouds.torus(800)[0])
+    assert "no usable normals" in failed(
+        3, "reconstruct", tmp_path / "scan.xyz", tmp_path / "m.obj", "--orient", "file"
+    )
+
+
+@pytest.mark.parametrize("command", ["reconstruct", "embed"])
+def test_an_output_never_takes_the_place_of_its_input(command: str, tmp_path: Path, failed: Callable[..., str]) -> None:
+    (tmp_path / "scan.ply").write_bytes(WITH_NORMALS["binary.ply"])
+    assert "both input and output" in failed(2, command, tmp_path / "scan.ply", tmp_path / "scan.ply")
+    assert (tmp_path / "scan.ply").read_bytes() == WITH_NORMALS["binary.ply"]
+
+
+@pytest.mark.usefixtures("stand_ins")
+def test_a_missed_target_keeps_the_mesh_but_is_an_error(scan: str, tmp_path: Path, failed: Callable[..., str]) -> None:
+    assert "1 hole" in failed(5, "reconstruct", scan, tmp_path / "mesh.obj", "--watertight")
+    assert (tmp_path / "mesh.obj").exists()
+
+
+@pytest.mark.usefixtures("stand_ins")
+def test_an_internal_error_is_one_sentence(scan: str, tmp_path: Path, failed: Callable[..., str]) -> None:
+    error = failed(1, "reconstruct", scan, tmp_path / "mesh.obj", "--seed", str(standins.FAILING_SEED))
+    assert "Internal error: ZeroDivisionError: a bug" in error
+    assert not (tmp_path / "mesh.obj").exists()
+
+
+@pytest.mark.usefixtures("stand_ins")
+def test_a_traceback_is_shown_on_demand(scan: str, capsys: Capture, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("HDPEA_TRACEBACK", "")
+    assert run(["--debug", "reconstruct", scan, scan + ".obj", "--seed", str(standins.FAILING_SEED)]) == 1
+    assert "Traceback" in capsys.readouterr().err
+
+
+def test_a_missing_input_is_unreadable(tmp_path: Path, failed: Callable[..., str]) -> None:
+    assert "no file" in failed(3, "reconstruct", tmp_path / "scan.ply", tmp_path / "mesh.obj")
+
+
+@pytest.mark.parametrize(
+    ("arguments", "reason"),
+    [
+        (["--vertices", "9", "--faces", "9"], "exclude"),
+        (["--vertices", "3"], "at least 4"),
+        (["--vertices", "many"], "not a valid integer"),
+        (["--fill-holes", "wide"], "not a length"),
+        (["--fill-holes", "-1%"], "cannot be -1"),
+        (["--normals", "guess"], "'guess'"),
+        (["--orient", "guess"], "'guess'"),
+        (["--orient", "viewpoint"], "no viewpoint"),
+        (["--orient", "viewpoint", "--viewpoint", "up"], "not a position"),
+        (["--viewpoint", "1,2,3"], "of no use with orient auto"),
+        (["--vertises", "9"], "--vertices"),
+        (["--report", "report.txt"], ".json"),
+        (["--picture", "picture.jpg"], ".png"),
+        (["--report", "nowhere/report.json"], "no folder nowhere"),
+    ],
+)
+def test_wrong_usage_is_found_at_once(
+    arguments: list[str], reason: str, scan: str, tmp_path: Path, failed: Callable[..., str]
+) -> None:
+    assert reason in failed(2, "reconstruct", scan, tmp_path / "mesh.obj", *arguments)
+    assert not (tmp_path / "mesh.obj").exists()
+
+
+@pytest.mark.parametrize(
+    ("output", "reason"),
+    [
+        ("mesh.docx", ".obj"),
+        ("nowhere/mesh.obj", "no folder"),
+        ("/proc/mesh.obj", "in /proc"),  # where not even root may write
+    ],
+)
+def test_outputs_that_cannot_be_are_found_at_once(
+    output: str, reason: str, scan: str, tmp_path: Path, failed: Callable[..., str]
+) -> None:
+    assert reason in failed(2, "reconstruct", scan, tmp_path / output)
+
+
+def test_an_unknown_command_is_wrong_usage(failed: Callable[..., str]) -> None:
+    assert "reconstrukt" in failed(2, "reconstrukt")
+
+
+def test_info_says_what_is_in_a_file(tmp_path: Path, capsys: Capture) -> None:
+    (tmp_path / "scan.ply").write_bytes(WITH_NORMALS["binary.ply"])
+    assert run(["info", str(tmp_path / "scan.ply")]) == 0
+    told = capsys.readouterr().out
+    assert "binary little-endian PLY" in told
+    assert "20 usable" in told
+
+
+@pytest.mark.parametrize(("sign", "fate"), [(1.0, "will be kept"), (-1.0, "oriented anew")])
+def test_info_says_what_becomes_of_the_normals(sign: float, fate: str, tmp_path: Path, capsys: Capture) -> None:
+    points, normals = clouds.torus(800)
+    normals[::2] *= sign
+    np.savetxt(tmp_path / "scan.xyz", np.hstack([points, normals]))
+    assert run(["info", str(tmp_path / "scan.xyz")]) == 0
+    assert fate in capsys.readouterr().out
+
+
+def test_info_says_that_points_are_too_few(tmp_path: Path, capsys: Capture) -> None:
+    np.savetxt(tmp_path / "scan.xyz", sphere(15))
+    assert run(["info", str(tmp_path / "scan.xyz")]) == 0
+    assert "a run needs at least 16 points" in capsys.readouterr().out
+
+
+def test_info_as_json(tmp_path: Path, capsys: Capture) -> None:
+    np.save(tmp_path / "scan.npy", 1e7 + sphere(500))
+    assert run(["info", str(tmp_path / "scan.npy"), "--json"]) == 0
+    facts = json.loads(capsys.readouterr().out)
+    assert facts["counts"]["points"] == 500
+    assert facts["diagonal"] == pytest.approx(12**0.5, rel=0.05)
+    assert 0.02 < facts["spacing"] < 0.1
+    assert facts["estimated_seconds"] > 0
+
+
+def test_info_of_a_single_point(tmp_path: Path, capsys: Capture) -> None:
+    (tmp_path / "scan.xyz").write_text("1 2 3\n")
+    assert run(["info", str(tmp_path / "scan.xyz")]) == 0
+    assert "unknown" in capsys.readouterr().out

@@ -1,0 +1,85 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Quick stand-ins for the stages behind the command line, so that its tests test it alone."""
+
+from __future__ import annotations
+
+import sys
+import time
+from dataclasses import dataclass
+from types import ModuleType
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hdpea.options import Options
+from hdpea.options.choice import Choice
+from hdpea.report.report import MeshFacts, Report
+from hdpea.runtime.progress import ProgressCallback, tell
+
+Array = NDArray[np.float64]
+
+
+@dataclass
+class Reconstruction:
+    vertices: Array
+    faces: NDArray[np.int64]
+    report: Report
+
+
+@dataclass
+class Embedding:
+    points: Array
+    normals: Array
+    coordinates: Array
+    choices: tuple[Choice, ...] = ()
+
+
+def reconstruct(
+    points: Array,
+    _normals: Array | None = None,
+    options: Options = Options(),
+    progress: ProgressCallback | None = None,
+    _sensors: Array | None = None,
+) -> Reconstruction:
+    """Return one triangle; fail or dawdle if the seed says so."""
+    tell(progress, "meshing", 0.0)
+    if options.particles.seed == FAILING_SEED:
+        raise ZeroDivisionError("a bug")
+    if options.particles.seed == SLEEPING_SEED:
+        time.sleep(60)
+    report = Report(options)
+    report.choices.append(Choice("vertices", 3, "", "the smallest mesh"))
+    report.mesh = MeshFacts(3, 1, manifold=True, closed=False, components=1, boundary_loops=1, genus=None)
+    if options.meshing.watertight:
+        report.missed.append("The mesh has 1 hole.")
+    return Reconstruction(points[:3], np.array([[0, 1, 2]]), report)
+
+
+def embed_points(
+    points: Array,
+    _normals: Array | None = None,
+    _: Options = Options(),
+    progress: ProgressCallback | None = None,
+    _sensors: Array | None = None,
+) -> Embedding:
+    """Return the points, padded with zeros."""
+    tell(progress, "embedding", 0.0)
+    return Embedding(points, np.zeros_like(points), np.pad(points, ((0, 0), (0, 5))))
+
+
+FAILING_SEED, SLEEPING_SEED = 13, 14
+
+
+def install() -> None:
+    """Take the places of the real modules in this process."""
+    for name, function in {"hdpea.reconstruction": reconstruct, "hdpea.embedding": embed_points}.items():
+        module = ModuleType(name)
+        setattr(module, function.__name__, function)
+        sys.modules[name] = module
+
+
+if __name__ == "__main__":
+    install()
+    from hdpea.cli import main
+
+    main()

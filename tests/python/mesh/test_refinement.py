@@ -1,0 +1,41 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Refinement moves vertices, and nothing but vertices, towards the points."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from helpers import clouds
+from helpers.made import cloud_of, mesh_of, options
+
+from hdpea import reconstruct
+from hdpea.errors import Interrupted
+
+
+def rms(shape: str, refine: bool) -> float:
+    distances = mesh_of(shape, refine=refine).report.distances
+    assert distances is not None
+    return distances.rms
+
+
+@pytest.mark.parametrize("shape", [*clouds.CLOSED, "cylinder"])
+def test_the_points_come_closer(shape: str) -> None:
+    assert rms(shape, refine=True) < 0.8 * rms(shape, refine=False)
+
+
+@pytest.mark.parametrize("shape", ["torus", "cube", "cylinder"])
+def test_the_faces_stay_as_they_are(shape: str) -> None:
+    np.testing.assert_array_equal(mesh_of(shape).faces, mesh_of(shape, refine=False).faces)
+
+
+@pytest.mark.parametrize("shape", ["sphere", "torus", "ellipsoid"])
+def test_a_smooth_surface_is_met_within_a_tenth_of_the_spacing(shape: str) -> None:
+    distances = mesh_of(shape).report.distances
+    assert distances is not None
+    assert distances.rms < 0.1 * distances.spacing
+    assert distances.max < distances.spacing
+
+
+def test_it_can_be_interrupted() -> None:
+    with pytest.raises(Interrupted):
+        reconstruct(*cloud_of("sphere", 500), options(60), lambda phase, _: phase != "refinement")

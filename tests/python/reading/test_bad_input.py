@@ -1,0 +1,87 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Files that cannot be read: each says why, and what to do."""
+
+from __future__ import annotations
+
+from contextlib import suppress
+from pathlib import Path
+
+import pytest
+from helpers.files import WITH_NORMALS, ply, saved
+from helpers.shapes import sphere
+from hypothesis import given
+from hypothesis import strategies as st
+
+from hdpea.errors import UnreadableInput
+from hdpea.reading import parse_points, read_points
+
+BAD_CONTENT = {
+    "empty.ply": (b"", "empty"),
+    "blank.xyz": (b" \n\n", "empty"),
+    "only_comments.xyz": (b"# x y z\n", "no points"),
+    "none.ply": (b"ply\nformat ascii 1.0\nelement vertex 0\nproperty float x\nend_header\n", "no points"),
+    "only_faces.ply": (b"ply\nformat ascii 1.0\nelement face 0\nend_header\n", "no points"),
+    "cut_binary.ply": (ply()[:-100], "ends after 17 of its 20 points"),
+    "cut_text.ply": (ply(text=True)[:-400], "line|ends after"),
+    "cut_header.ply": (ply()[:60], "damaged"),
+    "no_z.ply": (ply().replace(b"double z\n", b"double Q\n"), "no columns x, y and z"),
+    "words.xyz": (b"1 2 3\n4 five 6\n", "line 2 reads '4 five 6'"),
+    "ragged.xyz": (b"# scan\n1 2 3\n\n4 5\n", "line 4 reads '4 5', where 3 numbers"),
+    "flat.xyz": (b"1 2\n3 4\n", "2 numbers per line"),
+    "unnamed.csv": (b"id,east,north\n1,2,3\n", "no columns x, y and z"),
+    "no_vertices.off": (b"OFF\n0 0 0\n", "no points"),
+    "cut.off": (b"OFF\n3 0 0\n0 0 0\n1 0 0\n", "ends after 2 of its 3"),
+    "counts.off": (b"OFF\nmany\n", "no counts"),
+    "short.obj": (b"v 1 2\n", "2 numbers|x, y and z"),
+    "cut.npy": (WITH_NORMALS["wide.npy"][:-8], "damaged"),
+    "cut.npz": (WITH_NORMALS["named.npz"][:-30], "damaged"),
+    "names.npz": (saved(cloud=sphere(4)), "no array named points"),
+    "shape.npz": (saved(points=sphere(1000).T), "not numbers of shape"),
+    "scan.las": (b"LASF" + bytes(100), "LAS"),
+    "photo.png": (b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR", "format is unknown"),
+}
+
+
+@pytest.mark.parametrize("name", BAD_CONTENT)
+def test_bad_content_is_told_with_the_file_name(name: str, tmp_path: Path) -> None:
+    content, reason = BAD_CONTENT[name]
+    (tmp_path / name).write_bytes(content)
+    with pytest.raises(UnreadableInput, match=reason) as caught:
+        read_points(tmp_path / name)
+    assert name in caught.value.message
+
+
+def test_missing_file_names_its_neighbour(tmp_path: Path) -> None:
+    (tmp_path / "scan.ply").touch()
+    with pytest.raises(UnreadableInput, match="no file") as caught:
+        read_points(tmp_path / "scna.ply")
+    assert "scan.ply" in caught.value.hint
+
+
+def test_missing_folder() -> None:
+    with pytest.raises(UnreadableInput, match="no file"):
+        read_points("nowhere/scan.ply")
+
+
+def test_folder(tmp_path: Path) -> None:
+    with pytest.raises(UnreadableInput, match="folder"):
+        read_points(tmp_path)
+
+
+def test_file_without_permission(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def refuse(_: Path) -> bytes:
+        raise PermissionError(13, "Permission denied")
+
+    monkeypatch.setattr(Path, "read_bytes", refuse)  # chmod does not stop root
+    with pytest.raises(UnreadableInput, match="Permission denied"):
+        read_points(tmp_path / "scan.ply")
+
+
+@given(st.sampled_from(sorted(WITH_NORMALS)), st.data())
+def test_damage_of_any_kind_is_unreadable_or_harmless(name: str, data: st.DataObject) -> None:
+    content = bytearray(WITH_NORMALS[name])
+    for position in data.draw(st.lists(st.integers(0, len(content) - 1), max_size=4)):
+        content[position] = data.draw(st.integers(0, 255))
+    del content[data.draw(st.integers(1, len(content))) :]
+    with suppress(UnreadableInput):
+        parse_points(bytes(content))

@@ -1,0 +1,75 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from hdpea.options import Options, ParticleOptions
+from hdpea.options.choice import Choice
+from hdpea.report.report import Distances, MeshFacts, Report
+from hdpea.report.summary import summarize
+
+
+def filled() -> Report:
+    report = Report(Options(particles=ParticleOptions(seed=7)))
+    report.counts["points"] = 40_000
+    report.choices.append(Choice("curvature radius", 0.0123, "world units", "twice the vertex spacing"))
+    report.meshing["t3"] = np.int64(10_000)  # type: ignore[assignment]  # numpy's numbers slip in easily
+    report.mesh = MeshFacts(5000, 9996, manifold=True, closed=True, components=1, boundary_loops=0, genus=0)
+    report.distances = Distances.of(np.array([0.0, 3.0, 4.0]), spacing=0.5)
+    report.notes.append("12 points were dropped.")
+    with report.clock.stage("embedding"):
+        pass
+    return report
+
+
+def written(report: Report, folder: Path) -> dict[str, Any]:
+    report.write(folder / "report.json")
+    content: dict[str, Any] = json.loads((folder / "report.json").read_text())
+    return content
+
+
+def test_everything_is_in_the_file(tmp_path: Path) -> None:
+    content = written(filled(), tmp_path)
+    assert content["options"]["particles"]["seed"] == 7
+    assert content["counts"] == {"points": 40_000}
+    assert content["choices"][0]["why"] == "twice the vertex spacing"
+    assert content["meshing"] == {"t3": 10_000}
+    assert content["mesh"]["genus"] == 0
+    assert content["notes"] == ["12 points were dropped."]
+    assert [stage["name"] for stage in content["stages"]] == ["embedding"]
+    assert content["total"]["peak_bytes"] > 0
+
+
+def test_an_empty_report_is_legal(tmp_path: Path) -> None:
+    assert written(Report(Options()), tmp_path)["mesh"] is None
+
+
+def test_nan_becomes_null_instead_of_an_error_at_the_end_of_a_long_run(tmp_path: Path) -> None:
+    report = Report(Options())
+    report.choices.append(Choice("radius", float("nan"), "world units", "a bug"))
+    assert written(report, tmp_path)["choices"][0]["value"] is None
+
+
+def test_distances_in_both_units() -> None:
+    distances = Distances.of(np.array([0.0, 3.0, 4.0]), spacing=0.5)
+    assert distances.rms == pytest.approx((25 / 3) ** 0.5)
+    assert distances.as_dict()["in_world_units"]["max"] == 4.0
+    assert distances.as_dict()["in_spacings"]["max"] == 8.0
+
+
+def test_summary_is_short_and_says_what_came_out() -> None:
+    lines = summarize(filled()).splitlines()
+    assert len(lines) == 5
+    assert "mesh: 5,000 vertices, 9,996 faces, manifold, closed, 1 component, genus 0" in lines
+    assert "curvature radius: 0.0123 world units (twice the vertex spacing)" in lines
+
+
+def test_summary_does_not_hide_a_bad_mesh() -> None:
+    report = Report(Options())
+    report.mesh = MeshFacts(9, 9, manifold=False, closed=False, components=2, boundary_loops=3, genus=None)
+    assert "NOT manifold, 3 boundary loops, 2 components" in summarize(report)

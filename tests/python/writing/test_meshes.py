@@ -1,0 +1,86 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Meshes written and read back, here and by trimesh."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+import trimesh
+from helpers.shapes import TETRAHEDRON_FACES, sphere, tetrahedron
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+from hypothesis.extra import numpy as st_numpy
+from numpy.typing import NDArray
+
+from hdpea.errors import UsageError
+from hdpea.reading import read_points
+from hdpea.writing.meshes import MESH_FORMATS, write_mesh, write_points
+
+EXACT_FORMATS = (".obj", ".ply", ".off")
+coordinates = st_numpy.arrays(np.float64, (4, 3), elements=st.floats(-1e12, 1e12), unique=True)
+
+
+def read_mesh(path: Path) -> trimesh.Trimesh:
+    loaded = trimesh.load(path, process=False)
+    return loaded.to_geometry() if isinstance(loaded, trimesh.Scene) else loaded
+
+
+@pytest.mark.parametrize("extension", MESH_FORMATS)
+def test_the_same_mesh_comes_back(extension: str, tmp_path: Path) -> None:
+    write_mesh(tmp_path / f"mesh{extension}", tetrahedron(), TETRAHEDRON_FACES)
+    mesh = read_mesh(tmp_path / f"mesh{extension}")
+    np.testing.assert_allclose(mesh.triangles, tetrahedron()[TETRAHEDRON_FACES], atol=1e-7)
+    assert mesh.volume == pytest.approx(1 / 6)
+
+
+@pytest.mark.parametrize("extension", EXACT_FORMATS)
+def test_faces_keep_their_order_and_indices(extension: str, tmp_path: Path) -> None:
+    write_mesh(tmp_path / f"mesh{extension}", tetrahedron(), TETRAHEDRON_FACES)
+    np.testing.assert_array_equal(read_mesh(tmp_path / f"mesh{extension}").faces, TETRAHEDRON_FACES)
+
+
+@pytest.mark.parametrize("extension", EXACT_FORMATS)
+@given(vertices=coordinates)
+@settings(suppress_health_check=[HealthCheck.function_scoped_fixture], max_examples=30)
+def test_every_digit_comes_back(extension: str, tmp_path: Path, vertices: NDArray[np.float64]) -> None:
+    write_mesh(tmp_path / f"mesh{extension}", vertices, TETRAHEDRON_FACES)
+    np.testing.assert_array_equal(read_points(tmp_path / f"mesh{extension}").points, vertices)
+
+
+@pytest.mark.parametrize("extension", MESH_FORMATS)
+def test_millimetres_at_ten_million_metres_survive(extension: str, tmp_path: Path) -> None:
+    vertices = tetrahedron(center=1e7, size=0.123)
+    write_mesh(tmp_path / f"mesh{extension}", vertices, TETRAHEDRON_FACES)
+    found = read_mesh(tmp_path / f"mesh{extension}").triangles
+    np.testing.assert_allclose(found, vertices[TETRAHEDRON_FACES], rtol=0, atol=2e-8)
+
+
+def test_stl_is_binary_unless_single_precision_would_hurt(tmp_path: Path) -> None:
+    write_mesh(tmp_path / "near.stl", tetrahedron(), TETRAHEDRON_FACES)
+    write_mesh(tmp_path / "far.stl", tetrahedron(center=1e7, size=0.125), TETRAHEDRON_FACES)
+    assert b"facet" not in (tmp_path / "near.stl").read_bytes()
+    assert b"vertex 10000000.125" in (tmp_path / "far.stl").read_bytes()
+
+
+def test_an_empty_mesh_is_a_legal_file(tmp_path: Path) -> None:
+    for extension in EXACT_FORMATS:
+        write_mesh(tmp_path / f"mesh{extension}", np.empty((0, 3)), np.empty((0, 3), dtype=np.int64))
+        assert (tmp_path / f"mesh{extension}").exists()
+
+
+@pytest.mark.parametrize("extension", [".npz", ".ply"])
+def test_embedded_points_come_back(extension: str, tmp_path: Path) -> None:
+    points, embedding = 1e7 + sphere(9), np.random.default_rng(1).normal(size=(9, 8))
+    write_points(tmp_path / f"points{extension}", points, sphere(9), embedding)
+    cloud = read_points(tmp_path / f"points{extension}")
+    np.testing.assert_array_equal(cloud.points, points)
+    np.testing.assert_allclose(cloud.normals, sphere(9), atol=1e-15)
+    columns = cloud.attributes.get("coordinates", np.stack(list(cloud.attributes.values()), axis=-1))
+    np.testing.assert_array_equal(columns, embedding)
+
+
+def test_unknown_extension_is_a_usage_error(tmp_path: Path) -> None:
+    with pytest.raises(UsageError, match="extension"):
+        write_mesh(tmp_path / "mesh.fbx", tetrahedron(), TETRAHEDRON_FACES)
