@@ -12,7 +12,6 @@ import sys
 from pathlib import Path
 
 from hdpea import reconstruct
-from hdpea.options import MeshingOptions, Options
 from hdpea.pictures.picture import draw_mesh
 from hdpea.reading import read_points
 from hdpea.writing.meshes import write_mesh
@@ -25,15 +24,13 @@ def main(scan: Path, out: Path) -> None:
         print(note)
 
     # One vertex for every ten points; every other option has a default taken from the cloud.
-    options = Options(meshing=MeshingOptions(vertices=len(cloud.points) // 10))
-    mesh = reconstruct(cloud.points, cloud.normals, options=options)
+    mesh = reconstruct(cloud, vertices=len(cloud.points) // 10)
 
     write_mesh(out, mesh.vertices, mesh.faces)
     mesh.report.write(out.with_suffix(".json"))
     draw_mesh(out.with_suffix(".png"), mesh.vertices, mesh.faces)
     print(f"{len(cloud.points)} points -> {len(mesh.vertices)} vertices, {len(mesh.faces)} faces")
-    if mesh.report.distances:
-        print(f"rms distance of the points: {mesh.report.distances.rms:.3g}, in the scan's units")
+    print(f"rms distance of the points: {mesh.report.distances.rms:.3g}, in the scan's units")
 
 
 if __name__ == "__main__":

@@ -6,35 +6,25 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
-from hdpea import _core
 from hdpea.embedding import Embedder, embed_surface
 from hdpea.embedding.tangents import tangent_bases
-from hdpea.errors import HdpeaError, UsageError, core_errors_translated
-from hdpea.mesh.budget import Budget
-from hdpea.mesh.extraction import Mesh, extract_mesh
-from hdpea.mesh.particles import spread_particles
-from hdpea.mesh.refinement import refine_mesh
-from hdpea.mesh.simplification import simplify_mesh
-from hdpea.options import Options
-from hdpea.options.choice import Choice
-from hdpea.options.meshing import POINTS_PER_VERTEX
-from hdpea.reading.cloud import PointCloud, cleaned, from_arrays
-from hdpea.report.report import Distances, MeshFacts, Report
-from hdpea.runtime.progress import ProgressCallback, of_phase, tell
+from hdpea.errors import core_errors_translated
+from hdpea.mesh.assembly import assemble_mesh
+from hdpea.mesh.budget import particles_wanted
+from hdpea.options import Length, Options
+from hdpea.options.settings import changed
+from hdpea.reading.cloud import PointCloud, cleaned_cloud
+from hdpea.report.measurement import distances_to, mesh_facts, missed_targets
+from hdpea.report.report import Journal, Report
+from hdpea.runtime.progress import ProgressCallback, tell
 from hdpea.runtime.threads import limited_threads
-from hdpea.surface.denoising import denoised
-from hdpea.surface.normals import OrientedSurface, oriented_surface
-from hdpea.surface.orientation import TRUSTED_CONSISTENCY
-from hdpea.surface.surface import Surface
+from hdpea.surface.preparation import prepare_surface
 
 PHASES = ("normals", "denoising", "embedding", "particles", "meshing", "refinement", "simplification", "measuring")
 """The phases that ``progress`` hears of, in order; of denoising only if there is noise, or it is asked for, and of
 simplification, and another refinement after it, only if fewer vertices are wanted than particles are spread."""
-
-ATTEMPTS = 3
-"""How often the particles are counted anew where they make too few vertices."""
 
 
 @dataclass(frozen=True)
@@ -57,19 +47,30 @@ class Reconstruction:
 
 
 def reconstruct(
-    points: NDArray[np.float64],
-    normals: NDArray[np.float64] | None = None,
+    points: ArrayLike | PointCloud,
+    normals: ArrayLike | None = None,
     options: Options | None = None,
     progress: ProgressCallback | None = None,
-    sensors: NDArray[np.float64] | None = None,
+    sensors: ArrayLike | None = None,
     embedder: Embedder | None = None,
+    *,
+    vertices: int | None = None,
+    faces: int | None = None,
+    watertight: bool | None = None,
+    fill_holes: Length | str | float | None = None,
+    orient: str | None = None,
+    denoise: str | None = None,
+    embedding: str | None = None,
+    seed: int | None = None,
+    threads: int | None = None,
 ) -> Reconstruction:
     """Make a compact anisotropic triangle mesh of a point cloud.
 
     Parameters
     ----------
     points
-        (n, 3) in any unit and frame; what is not finite or occurs twice is dropped.
+        (n, 3) in any unit and frame; what is not finite or occurs twice is dropped. Or a cloud as ``read_points``
+        returns it, which brings its normals and sensors.
     normals
         (n, 3) of any length and sign; estimated where missing, zero or not finite.
     options
@@ -80,16 +81,34 @@ def reconstruct(
         (n, 3), from where each point was seen; needed only to orient by viewpoint.
     embedder
         An embedding of your own, in place of the one that the options name.
+    vertices, faces
+        How many are wanted; one of the two. Default: one vertex for every 8 points.
+    watertight
+        Whether to close every hole, whatever its size. Default: False.
+    fill_holes
+        Fill holes up to this size across: a length in world units, or text such as ``"1%"`` of the diagonal.
+    orient
+        Which side is out: ``"auto"`` (default), ``"wnnc"``, ``"mst"``, ``"file"`` or ``"viewpoint"``.
+    denoise
+        ``"auto"`` (default), ``"none"`` or ``"mls"``.
+    embedding
+        ``"direct"`` (default) or ``"learned"``.
+    seed
+        Of everything random; the same seed gives the same bytes. Default: 0.
+    threads
+        To use; 0 (default): all cores. The result is the same for any number.
+
+    The last nine are the common ones among the options, and overrule `options`, where all others are.
 
     Raises
     ------
     CannotReconstruct
         If the points are too few, equal, on a line, or hold no triangle.
     UsageError
-        If the arrays are not of these shapes, more vertices are asked for than there are points, or a viewpoint
-        is asked for and there is none.
+        If the arrays are not of these shapes, an option is illegal, more vertices are asked for than there are
+        points, or a viewpoint is asked for and there is none.
     UnreadableInput
-        If the given normals, or their signs, are insisted on and unusable.
+        If no point is finite, or the given normals, or their signs, are insisted on and unusable.
     Interrupted
         If `progress` cancelled.
 
@@ -98,129 +117,45 @@ def reconstruct(
     >>> import numpy as np
     >>> directions = np.random.default_rng(0).normal(size=(2000, 3))
     >>> sphere = directions / np.linalg.norm(directions, axis=1, keepdims=True)
-    >>> mesh = reconstruct(sphere)
-    >>> mesh.report.mesh.closed
-    True
+    >>> mesh = reconstruct(sphere, vertices=200)
+    >>> mesh.report.mesh.closed, len(mesh.vertices)
+    (True, 200)
     """
-    options = options or Options()
-    report = Report(options)
+    common = {
+        "vertices": vertices,
+        "faces": faces,
+        "watertight": watertight,
+        "fill_holes": None if fill_holes is None else Length.of(fill_holes),
+        "orient": orient,
+        "denoise": denoise,
+        "embedding": embedding,
+        "seed": seed,
+        "threads": threads,
+    }
+    given = {name: value for name, value in common.items() if value is not None}
+    options = changed(options or Options(), given)
+    journal = Journal(options=options)
+    clock = journal.clock
     with limited_threads(options.threads), core_errors_translated():
-        cloud = cleaned(from_arrays(points, normals, sensors))
-        with report.clock.stage("normals"):
-            per_particle = len(cloud.points) / options.particles_of(len(cloud.points))
-            oriented = oriented_surface(
-                cloud.points, cloud.normals, options.normals, per_particle, progress, cloud.sensors()
-            )
-        _tell_of_cloud(report, cloud, oriented)
-        with report.clock.stage("denoising"):
-            surface, choices = denoised(oriented, options.denoising, progress)
-            report.choices += choices
-        mesh = _mesh_of(surface, report, progress, embedder)
-        with report.clock.stage("measuring"):
+        cloud = cleaned_cloud(points, normals, sensors)
+        per_particle = len(cloud.points) / options.particles_of(len(cloud.points))
+        prepared = prepare_surface(cloud, options.normals, options.denoising, per_particle, progress, clock)
+        particles, count_choices = particles_wanted(options, len(cloud.points))
+        surface = prepared.surface
+        with clock.stage("embedding"):
+            embedded = embed_surface(surface, particles, options.embedding, progress, embedder)
+            bases = tangent_bases(embedded.coordinates, surface.normals, surface.neighbors, per_particle)
+        mesh = assemble_mesh(surface, embedded.coordinates, bases, options, progress, clock)
+        with clock.stage("measuring"):
             tell(progress, "measuring", 0)
-            _measure(mesh, oriented.surface, report)
+            facts = mesh_facts(mesh)
+            distances = distances_to(mesh, prepared.oriented.surface)
             tell(progress, "measuring", 1)
-    return Reconstruction(oriented.surface.frame.to_world(mesh.vertices_in_unit), mesh.faces, report)
-
-
-def _tell_of_cloud(report: Report, cloud: PointCloud, oriented: OrientedSurface) -> None:
-    report.counts |= cloud.counts() | {"normals_estimated": oriented.estimated}
-    report.choices += oriented.choices
-    report.notes += cloud.notes
-    if oriented.estimated > cloud.unusable_normals:
-        report.notes.append(f"Normals of {oriented.estimated:,} points were estimated.")
-    if oriented.reoriented and oriented.consistency is not None and oriented.consistency < TRUSTED_CONSISTENCY:
-        share = f"{oriented.consistency:.0%} of neighbours agreed"
-        report.notes.append(f"The given normals point both ways ({share}); they were oriented anew.")
-
-
-def _mesh_of(surface: Surface, report: Report, progress: ProgressCallback | None, embedder: Embedder | None) -> Mesh:
-    """Embed, spread, join and fit the mesh; simplify it where it has more vertices than are wanted."""
-    options = report.options
-    mesh = _mesh_of_particles(surface, report, progress, embedder)
-    with report.clock.stage("refinement"):
-        mesh = refine_mesh(mesh, surface, options.refinement, of_phase(progress, "refinement"))
-    if Budget.of(options.meshing).excess(mesh) > 0:
-        with report.clock.stage("simplification"):
-            mesh = simplify_mesh(mesh, options.meshing, of_phase(progress, "simplification"))
-        with report.clock.stage("refinement"):
-            mesh = refine_mesh(mesh, surface, options.refinement, of_phase(progress, "refinement"))
-    report.choices += mesh.choices
-    report.meshing.update(mesh.statistics)
-    return mesh
-
-
-def _mesh_of_particles(
-    surface: Surface, report: Report, progress: ProgressCallback | None, embedder: Embedder | None
-) -> Mesh:
-    """Embed, spread and join; where that makes too few vertices, spread more particles."""
-    options, points = report.options, len(surface.points_in_unit)
-    wanted = _particles_wanted(report, points)
-    with report.clock.stage("embedding"):
-        embedded = embed_surface(surface, wanted, options.embedding, progress, embedder)
-        bases = tangent_bases(embedded.coordinates, surface.normals, surface.neighbors, points / wanted)
-    report.choices += embedded.choices
-    left = options.vertices_of(points) / wanted
-    count, attempts = wanted, list[Mesh]()
-    while len(attempts) < ATTEMPTS:
-        with report.clock.stage("particles"):
-            particles = spread_particles(
-                embedded.coordinates,
-                bases,
-                surface.neighbors,
-                count,
-                options=options.particles,
-                progress=of_phase(progress, "particles"),
-            )
-        with report.clock.stage("meshing"):
-            tell(progress, "meshing", 0)
-            attempts.append(extract_mesh(particles, bases, surface, options.meshing, left))
-            tell(progress, "meshing", 1)
-        excess = Budget.of(options.meshing).excess(attempts[-1])
-        if excess >= 0:
-            return attempts[-1]
-        count = min(round(count / (1 + excess)), points)
-    return max(attempts, key=lambda mesh: len(mesh.vertices_in_unit))
-
-
-def _particles_wanted(report: Report, points: int) -> int:
-    options = report.options
-    vertices, particles = options.vertices_of(points), options.particles_of(points)
-    if particles > points:
-        what = "vertices" if particles == vertices else "particles"
-        raise UsageError(
-            f"{particles} {what} were asked for, but there are {points} distinct points.",
-            f"Ask for at most half as many {what} as there are points.",
-        )
-    if options.particles.particles is None:
-        if options.meshing.any_size:
-            report.choices.append(Choice("vertices", vertices, "", f"one for every {POINTS_PER_VERTEX} points"))
-        elif particles > vertices:
-            why = f"what {points:,} points can show; the mesh is simplified from these"
-            report.choices.append(Choice("particles", particles, "", why))
-    return particles
-
-
-def _measure(mesh: Mesh, surface: Surface, report: Report) -> None:
-    """Check the mesh and measure it against the points; a mesh that is not manifold never leaves."""
-    check = _core.check_mesh(mesh.vertices_in_unit, mesh.faces)
-    if not (check.manifold and check.oriented):
-        raise HdpeaError("The mesh is not manifold.", "This is an error in hdpea: please report it with the input.")
-    report.mesh = MeshFacts(
-        vertices=check.vertices,
-        faces=check.faces,
-        manifold=check.manifold,
-        closed=check.closed,
-        components=check.components,
-        boundary_loops=check.boundary_loops,
-        genus=check.genus if check.closed else None,
-        self_intersections=_core.count_self_intersections(mesh.vertices_in_unit, mesh.faces),
-    )
-    feet = _core.closest_surface_points(mesh.vertices_in_unit, mesh.faces, surface.points_in_unit)
-    diagonal = surface.frame.diagonal
-    report.distances = Distances.of(feet.distance * diagonal, surface.spacing * diagonal)
-    excess = Budget.of(report.options.meshing).excess(mesh)
-    if excess:
-        report.missed.append(f"The budget was missed by {abs(excess):.1%}.")
-    if report.options.meshing.watertight and not check.closed:
-        report.missed.append(f"The mesh is not watertight: {check.boundary_loops} boundary loops are left.")
+    journal.source["format"] = cloud.format
+    journal.counts |= cloud.counts() | {"normals_estimated": prepared.oriented.estimated}
+    journal.choices += [*prepared.choices, *count_choices, *embedded.choices, *mesh.choices]
+    journal.meshing |= mesh.statistics
+    journal.notes += [*cloud.notes, *prepared.notes]
+    journal.missed += missed_targets(mesh, facts, options.meshing)
+    vertices_in_world = surface.frame.to_world(mesh.vertices_in_unit)
+    return Reconstruction(vertices_in_world, mesh.faces, Report.of(journal, facts, distances))

@@ -62,7 +62,7 @@ def command(*, source: str, output: Path, picture: Path | None, page: Path | Non
     with shown(quiet) as progress:
         tell(progress, "reading", 0.0)
         cloud = read_points(source)
-        tensors = estimate_curvature(cloud.points, cloud.normals, options, progress, cloud.sensors())
+        tensors = estimate_curvature(cloud, options=options, progress=progress)
         tell(progress, "writing", 0.0)
         write_curvature(output, tensors)
         if picture:

@@ -46,7 +46,7 @@ def command(ctx: click.Context, /, *, source: str, output: Path, quiet: bool, **
         tell(progress, "start-up", 0.0)
         from hdpea.embedding import embed_points
 
-        embedding = embed_points(cloud.points, cloud.normals, options, progress, cloud.sensors())
+        embedding = embed_points(cloud, options=options, progress=progress)
         tell(progress, "writing", 0.0)
         write_points(output, embedding.points, embedding.normals, embedding.coordinates)
     if not quiet:

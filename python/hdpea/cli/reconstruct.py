@@ -76,8 +76,8 @@ def command(
 
             # Or the clock would not see it: the stages load it when they first need it.
             import_module("torch")
-        result = reconstruct(cloud.points, cloud.normals, options, progress, cloud.sensors())
-        result.report.begin_with(source, cloud, clock)
+        result = reconstruct(cloud, options=options, progress=progress)
+        result.report.begin_with(source, clock)
         tell(progress, "writing", 0.0)
         with result.report.clock.stage("writing"):
             write_mesh(output, result.vertices, result.faces)

@@ -6,7 +6,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from hdpea.curvature.carrying import carried_over
 from hdpea.curvature.from_embedding import estimate_from_embedding
@@ -25,27 +25,29 @@ from hdpea.geometry.thinning import thinned
 from hdpea.options import NormalOptions
 from hdpea.options.choice import Choice
 from hdpea.options.meshing import POINTS_PER_VERTEX
-from hdpea.reading.cloud import PointCloud, cleaned, from_arrays
+from hdpea.reading.cloud import PointCloud, cleaned_cloud
 from hdpea.runtime.progress import ProgressCallback, tell
 from hdpea.runtime.threads import limited_threads
-from hdpea.surface.normals import ORIENTATION_NEIGHBORS, oriented_surface
+from hdpea.surface.normals import ORIENTATION_NEIGHBORS
+from hdpea.surface.preparation import prepare_surface
 from hdpea.surface.roughness import roughness_of
 from hdpea.surface.surface import Surface
 
 
 def estimate_curvature(
-    points: NDArray[np.float64],
-    normals: NDArray[np.float64] | None = None,
+    points: ArrayLike | PointCloud,
+    normals: ArrayLike | None = None,
     options: CurvatureOptions | None = None,
     progress: ProgressCallback | None = None,
-    sensors: NDArray[np.float64] | None = None,
+    sensors: ArrayLike | None = None,
 ) -> CurvatureTensors:
     """Estimate the curvature tensor at each point of a cloud.
 
     Parameters
     ----------
     points
-        (n, 3) in any unit and frame; what is not finite or occurs twice is dropped.
+        (n, 3) in any unit and frame; what is not finite or occurs twice is dropped. Or a cloud as ``read_points``
+        returns it, which brings its normals and sensors.
     normals
         (n, 3) of any length and sign; estimated where missing, zero or not finite.
     options
@@ -77,17 +79,17 @@ def estimate_curvature(
     """
     options = options or CurvatureOptions()
     with limited_threads(options.threads), core_errors_translated():
-        cloud = cleaned(from_arrays(points, normals, sensors))
+        cloud = cleaned_cloud(points, normals, sensors)
         vertices, kept = _resolution(len(cloud.points), options.estimation.vertices)
         thin = cloud.at(kept)
         fitting, choices = _fitting_of_normals(thin, options)
-        oriented = oriented_surface(thin.points, thin.normals, fitting, len(kept) / vertices, progress, thin.sensors())
-        estimate, metric = _estimate(oriented.surface, vertices, options, progress)
+        prepared = prepare_surface(thin, fitting, points_per_vertex=len(kept) / vertices, progress=progress)
+        estimate, metric = _estimate(prepared.surface, vertices, options, progress)
         signed = options.estimation.method == "jet"
         if len(kept) < len(cloud.points):
-            estimate = _at_all_points(cloud, oriented.surface, estimate, metric, signed)
-        estimate = replace(estimate, choices=(*choices, *oriented.choices, *estimate.choices))
-        return _in_world(cloud, oriented.surface.frame.diagonal, estimate, metric, signed)
+            estimate = _at_all_points(cloud, prepared.surface, estimate, metric, signed)
+        estimate = replace(estimate, choices=(*choices, *prepared.choices, *estimate.choices))
+        return _in_world(cloud, prepared.surface.frame.diagonal, estimate, metric, signed)
 
 
 def _resolution(points: int, vertices: int | None) -> tuple[int, NDArray[np.int64]]:

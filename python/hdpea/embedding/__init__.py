@@ -11,7 +11,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from hdpea.embedding.direct import embed_directly
 from hdpea.embedding.embedded import Embedded
@@ -20,10 +20,10 @@ from hdpea.errors import core_errors_translated
 from hdpea.geometry.unit_frame import UnitFrame
 from hdpea.options import EmbeddingOptions, Options
 from hdpea.options.choice import Choice
-from hdpea.reading.cloud import cleaned, from_arrays
+from hdpea.reading.cloud import PointCloud, cleaned_cloud
 from hdpea.runtime.progress import ProgressCallback, of_phase
 from hdpea.runtime.threads import limited_threads
-from hdpea.surface.normals import oriented_surface
+from hdpea.surface.preparation import prepare_surface
 from hdpea.surface.surface import Surface
 
 Embedder = Callable[[Surface, int, EmbeddingOptions, Callable[[float], bool]], Embedded]
@@ -73,18 +73,19 @@ def embed_surface(
 
 
 def embed_points(
-    points: NDArray[np.float64],
-    normals: NDArray[np.float64] | None = None,
+    points: ArrayLike | PointCloud,
+    normals: ArrayLike | None = None,
     options: Options | None = None,
     progress: ProgressCallback | None = None,
-    sensors: NDArray[np.float64] | None = None,
+    sensors: ArrayLike | None = None,
 ) -> Embedding:
     """Embed a cloud in R^8.
 
     Parameters
     ----------
     points
-        (n, 3) in world units; what is not finite or occurs twice is dropped.
+        (n, 3) in world units; what is not finite or occurs twice is dropped. Or a cloud as ``read_points`` returns it,
+        which brings its normals and sensors.
     normals
         (n, 3), of any length and sign; estimated where missing.
     sensors
@@ -101,13 +102,12 @@ def embed_points(
     """
     options = options or Options()
     with limited_threads(options.threads):
-        cloud = cleaned(from_arrays(points, normals, sensors))
+        cloud = cleaned_cloud(points, normals, sensors)
         particles = options.particles_of(len(cloud.points))
-        per_particle = len(cloud.points) / particles
-        oriented = oriented_surface(
-            cloud.points, cloud.normals, options.normals, per_particle, progress, cloud.sensors()
+        prepared = prepare_surface(
+            cloud, options.normals, points_per_vertex=len(cloud.points) / particles, progress=progress
         )
-        surface = oriented.surface
+        surface = prepared.surface
         embedded = embed_surface(surface, particles, options.embedding, progress)
-    choices = (*oriented.choices, *embedded.choices)
+    choices = (*prepared.choices, *embedded.choices)
     return Embedding(cloud.points, surface.normals, embedded.coordinates, surface.frame, choices)

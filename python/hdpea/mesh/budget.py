@@ -5,8 +5,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from hdpea.errors import UsageError
 from hdpea.mesh.extraction import Mesh
-from hdpea.options import MeshingOptions
+from hdpea.options import MeshingOptions, Options
+from hdpea.options.choice import Choice
+from hdpea.options.meshing import POINTS_PER_VERTEX
 
 TOLERANCE = 0.01
 """Share of what was asked for by which a mesh may miss it; one vertex, or face, is always allowed."""
@@ -33,3 +36,28 @@ class Budget:
             return 0.0
         more = len(mesh.faces if self.counts_faces else mesh.vertices_in_unit) - self.asked
         return more / self.asked if abs(more) > max(TOLERANCE * self.asked, 1) else 0.0
+
+
+def particles_wanted(options: Options, points: int) -> tuple[int, tuple[Choice, ...]]:
+    """Return how many particles to spread on so many points, and what was chosen for that.
+
+    Raises
+    ------
+    UsageError
+        If there are fewer points than that.
+    """
+    vertices, particles = options.vertices_of(points), options.particles_of(points)
+    if particles > points:
+        what = "vertices" if particles == vertices else "particles"
+        raise UsageError(
+            f"{particles} {what} were asked for, but there are {points} distinct points.",
+            f"Ask for at most half as many {what} as there are points.",
+        )
+    if options.particles.particles is not None:
+        return particles, ()
+    if options.meshing.any_size:
+        return particles, (Choice("vertices", vertices, "", f"one for every {POINTS_PER_VERTEX} points"),)
+    if particles > vertices:
+        why = f"what {points:,} points can show; the mesh is simplified from these"
+        return particles, (Choice("particles", particles, "", why),)
+    return particles, ()

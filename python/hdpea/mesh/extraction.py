@@ -57,7 +57,7 @@ def extract_mesh(
     bases: NDArray[np.float64],
     surface: Surface,
     options: MeshingOptions | None = None,
-    left: float = 1.0,
+    share_kept: float = 1.0,
 ) -> Mesh:
     """Join particles to a mesh.
 
@@ -67,8 +67,8 @@ def extract_mesh(
         (n, 2, d) tangent bases of the cloud.
     surface
         Where the normals come from.
-    left
-        Share of the vertices that a simplification will leave: pieces that would have too few faces then are dropped.
+    share_kept
+        Share of the vertices that a simplification will keep: pieces that would have too few faces then are dropped.
 
     Raises
     ------
@@ -84,7 +84,7 @@ def extract_mesh(
         smallest = float(radii.min()) * surface.frame.diagonal
         disks = Choice("disk_radius", smallest, "world units under the metric", why)
         limits = _core.ExtractionOptions()
-        limits.min_component_faces = round(options.min_component / left)
+        limits.min_component_faces = round(options.min_component / share_kept)
         extracted = _core.extract_manifold(particles.coordinates, normals, radii, on_points, limits)
         if len(extracted.faces) == 0:
             raise CannotReconstruct(

@@ -6,6 +6,8 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
+from hdpea.errors import UsageError
+
 
 @dataclass(frozen=True)
 class Length:
@@ -41,6 +43,20 @@ class Length:
         except ValueError:
             raise ValueError(f"{text!r} is not a length such as 0.02 or 1%") from None
         return cls(value, percent)
+
+    @classmethod
+    def of(cls, length: Length | str | float) -> Length:
+        """Take a length, a number in world units, or text as ``parse`` reads it.
+
+        Raises
+        ------
+        UsageError
+            If it is none of these.
+        """
+        try:
+            return length if isinstance(length, Length) else cls.parse(str(length))
+        except ValueError as error:
+            raise UsageError(f"{error}.") from error
 
     def resolve(self, diagonal: float) -> float:
         """Return the length in the units of `diagonal`, the bounding-box diagonal of the cloud."""

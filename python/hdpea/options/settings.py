@@ -4,15 +4,16 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, fields, is_dataclass
+from dataclasses import dataclass, fields, is_dataclass, replace
 from types import NoneType
 from typing import Any, TypeVar, get_args, get_type_hints
 
+from hdpea.options.checked import Checked
 from hdpea.options.lengths import Length
 from hdpea.options.position import Position
 from hdpea.options.reconstruction import Options
 
-Chosen = TypeVar("Chosen")
+Chosen = TypeVar("Chosen", bound=Checked)
 
 RUN = "run"
 """The stage of a setting that belongs to the run as a whole."""
@@ -73,12 +74,24 @@ def filled(owner: type[Chosen], values: Mapping[str, Any]) -> Chosen:
     UsageError
         If a value is illegal.
     """
+    return changed(owner(), values)
+
+
+def changed(options: Chosen, values: Mapping[str, Any]) -> Chosen:
+    """Return `options` with the given settings in place of their own.
+
+    Raises
+    ------
+    UsageError
+        If a value is illegal.
+    """
     given: dict[str, dict[str, Any]] = {}
-    for each in _all(owner):
+    for each in _all(type(options)):
         if each.name in values:
             given.setdefault(each.stage, {})[each.name] = values[each.name]
     run = given.pop(RUN, {})
-    return owner(**{stage: type(getattr(owner, stage))(**chosen) for stage, chosen in given.items()}, **run)
+    stages = {stage: replace(getattr(options, stage), **chosen) for stage, chosen in given.items()}
+    return replace(options, **stages, **run)
 
 
 def as_dict(options: object) -> dict[str, dict[str, Any]]:

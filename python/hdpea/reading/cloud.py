@@ -39,6 +39,8 @@ class PointCloud:
         How many points were thrown out, and why.
     unusable_normals
         How many of the kept points came with a normal that is zero or not finite.
+    clean
+        Whether it went through ``cleaned``.
     """
 
     points: NDArray[np.float64]
@@ -49,6 +51,7 @@ class PointCloud:
     dropped_non_finite: int = 0
     dropped_duplicates: int = 0
     unusable_normals: int = 0
+    clean: bool = False
 
     def sensors(self) -> NDArray[np.float64] | None:
         """Return from where each point was seen, (n, 3), if the file says so: in sensor_x, y and z, or in sensor."""
@@ -121,6 +124,25 @@ def from_arrays(points: ArrayLike, normals: ArrayLike | None = None, sensors: Ar
     return PointCloud(found, given, {} if seen_from is None else {"sensor": seen_from})
 
 
+def cleaned_cloud(
+    points: ArrayLike | PointCloud, normals: ArrayLike | None = None, sensors: ArrayLike | None = None
+) -> PointCloud:
+    """Return the cleaned cloud of a caller's arrays, as ``from_arrays`` takes them, or of a cloud.
+
+    Raises
+    ------
+    UsageError
+        If the arrays are not numbers of these shapes, or a cloud comes with arrays beside it.
+    UnreadableInput
+        If no point is left.
+    """
+    if not isinstance(points, PointCloud):
+        return cleaned(from_arrays(points, normals, sensors))
+    if normals is not None or sensors is not None:
+        raise UsageError("A cloud brings its own normals and sensors.", "Give the cloud alone, or arrays.")
+    return points if points.clean else cleaned(points)
+
+
 def _rows(array: ArrayLike, name: str) -> NDArray[np.float64]:
     try:
         rows = np.asarray(array, dtype=np.float64)
@@ -158,6 +180,7 @@ def cleaned(cloud: PointCloud) -> PointCloud:
         dropped_non_finite=non_finite,
         dropped_duplicates=duplicates,
         unusable_normals=unusable,
+        clean=True,
         notes=cloud.notes + _cleaning_notes(non_finite, duplicates, unusable),
     )
 

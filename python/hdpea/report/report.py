@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import json
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict, dataclass, field, fields
 from pathlib import Path
 from typing import Any
 
@@ -14,7 +14,6 @@ from numpy.typing import NDArray
 from hdpea.options import Options
 from hdpea.options.choice import Choice
 from hdpea.options.settings import as_dict
-from hdpea.reading import PointCloud
 from hdpea.runtime.clock import StageClock
 from hdpea.runtime.outputs import replacing
 from hdpea.version import version
@@ -31,7 +30,7 @@ class MeshFacts:
     components: int
     boundary_loops: int
     genus: int | None
-    self_intersections: int | None = None
+    self_intersections: int
 
 
 @dataclass(frozen=True)
@@ -62,24 +61,22 @@ class Distances:
         return {"spacing": self.spacing, "in_world_units": in_world, "in_spacings": in_spacings}
 
 
-@dataclass
-class Report:
-    """Filled by the stages as they go; everything but the options may be missing.
+@dataclass(kw_only=True)
+class Journal:
+    """What a run takes down stage by stage.
 
     Attributes
     ----------
     options
         What was asked; the seed is among them.
     source
-        What was read, filled by the command line.
+        What was read: the format, and the name if the command line read it.
     counts
         How many points there were, how many were dropped and why, how many had normals, by name.
     choices
         Every value that was chosen automatically.
     meshing
         T3, T12, refused triangles, holes and so on, by name.
-    mesh, distances
-        What came out.
     notes
         Sentences for the user: what is unusual about this input or this result.
     missed
@@ -93,18 +90,27 @@ class Report:
     counts: dict[str, int] = field(default_factory=dict)
     choices: list[Choice] = field(default_factory=list)
     meshing: dict[str, int | float] = field(default_factory=dict)
-    mesh: MeshFacts | None = None
-    distances: Distances | None = None
     notes: list[str] = field(default_factory=list)
     missed: list[str] = field(default_factory=list)
     clock: StageClock = field(default_factory=StageClock)
 
-    def begin_with(self, name: str, cloud: PointCloud, clock: StageClock) -> None:
+
+@dataclass(kw_only=True)
+class Report(Journal):
+    """The journal of a run that succeeded, and what came out of it."""
+
+    mesh: MeshFacts
+    distances: Distances
+
+    @classmethod
+    def of(cls, journal: Journal, mesh: MeshFacts, distances: Distances) -> Report:
+        """Close the journal; both go on sharing its lists and its clock."""
+        taken_down = {each.name: getattr(journal, each.name) for each in fields(journal)}
+        return cls(**taken_down, mesh=mesh, distances=distances)
+
+    def begin_with(self, name: str, clock: StageClock) -> None:
         """Put the reading of the input, and what it took, before everything else."""
-        self.source = {"name": name, "format": cloud.format}
-        # Reading dropped what the stages did not get to see.
-        self.counts |= cloud.counts()
-        self.notes[:] = [*cloud.notes, *(note for note in self.notes if note not in cloud.notes)]
+        self.source = {"name": name} | self.source
         self.clock.stages[:0] = clock.stages
 
     def as_dict(self) -> dict[str, Any]:
@@ -116,8 +122,8 @@ class Report:
             "counts": self.counts,
             "choices": [asdict(choice) for choice in self.choices],
             "meshing": self.meshing,
-            "mesh": asdict(self.mesh) if self.mesh else None,
-            "distances": self.distances.as_dict() if self.distances else None,
+            "mesh": asdict(self.mesh),
+            "distances": self.distances.as_dict(),
             "notes": self.notes,
             "missed": self.missed,
             "stages": [asdict(stage) for stage in self.clock.stages],

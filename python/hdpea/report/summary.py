@@ -17,10 +17,8 @@ def summarize(report: Report) -> str:
 def _lines(report: Report) -> Iterator[str]:
     yield from map(describe, report.choices)
     yield from report.notes
-    if report.mesh:
-        yield _mesh(report.mesh)
-    if report.distances:
-        yield _distances(report.distances)
+    yield _mesh(report.mesh)
+    yield _distances(report.distances)
     total = report.clock.total()
     yield f"took {total.seconds:.1f} s, at most {total.peak_bytes / 1e9:.2f} GB"
 

@@ -14,12 +14,12 @@ from hdpea.embedding.tangents import tangent_bases
 from hdpea.errors import CannotReconstruct
 from hdpea.evaluation.curvature_metric import CurvatureMetric, root_metrics
 from hdpea.geometry.unit_frame import UnitFrame
-from hdpea.mesh.extraction import Mesh, extract_mesh
-from hdpea.mesh.particles import spread_particles
-from hdpea.mesh.refinement import refine_mesh
+from hdpea.mesh.assembly import assemble_mesh
+from hdpea.mesh.extraction import Mesh
 from hdpea.network.inference import predict_psi
 from hdpea.network.settling import ROUNDS
 from hdpea.network.transformer import PointTransformer
+from hdpea.options import Options, ParticleOptions
 from hdpea.surface.surface import Surface
 
 T3_WANTED, G_WANTED = 0.95, 0.77
@@ -76,10 +76,10 @@ def mesh_of_sample(
 def mesh_of_embedding(surface: Surface, psi: NDArray[np.float64], vertices: int) -> Mesh:
     """Return the mesh that all stages after the embedding make of a surface of n points and psi (n, 5)."""
     points = len(surface.points_in_unit)
+    particles = min(vertices, points)
     coordinates = np.hstack([surface.points_in_unit, psi])
-    bases = tangent_bases(coordinates, surface.normals, surface.neighbors, points / vertices)
-    particles = spread_particles(coordinates, bases, surface.neighbors, min(vertices, points))
-    return refine_mesh(extract_mesh(particles, bases, surface), surface)
+    bases = tangent_bases(coordinates, surface.normals, surface.neighbors, points / particles)
+    return assemble_mesh(surface, coordinates, bases, Options(particles=ParticleOptions(particles=particles)))
 
 
 def metric_quality(mesh: Mesh, sample: Sample) -> NDArray[np.float64]:

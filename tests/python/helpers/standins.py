@@ -13,10 +13,15 @@ from numpy.typing import NDArray
 
 from hdpea.options import Options
 from hdpea.options.choice import Choice
-from hdpea.report.report import MeshFacts, Report
+from hdpea.reading.cloud import PointCloud
+from hdpea.report.report import Distances, Journal, MeshFacts, Report
 from hdpea.runtime.progress import ProgressCallback, tell
 
 Array = NDArray[np.float64]
+
+ONE_TRIANGLE = MeshFacts(
+    3, 1, manifold=True, closed=False, components=1, boundary_loops=1, genus=None, self_intersections=0
+)
 
 
 @dataclass
@@ -34,36 +39,25 @@ class Embedding:
     choices: tuple[Choice, ...] = ()
 
 
-def reconstruct(
-    points: Array,
-    _normals: Array | None = None,
-    options: Options = Options(),
-    progress: ProgressCallback | None = None,
-    _sensors: Array | None = None,
-) -> Reconstruction:
+def reconstruct(cloud: PointCloud, options: Options, progress: ProgressCallback | None) -> Reconstruction:
     """Return one triangle; fail or dawdle if the seed says so."""
     tell(progress, "meshing", 0.0)
     if options.particles.seed == FAILING_SEED:
         raise ZeroDivisionError("a bug")
     if options.particles.seed == SLEEPING_SEED:
         time.sleep(60)
-    report = Report(options)
-    report.choices.append(Choice("vertices", 3, "", "the smallest mesh"))
-    report.mesh = MeshFacts(3, 1, manifold=True, closed=False, components=1, boundary_loops=1, genus=None)
+    journal = Journal(options=options, counts=cloud.counts(), notes=list(cloud.notes))
+    journal.choices.append(Choice("vertices", 3, "", "the smallest mesh"))
     if options.meshing.watertight:
-        report.missed.append("The mesh has 1 hole.")
-    return Reconstruction(points[:3], np.array([[0, 1, 2]]), report)
+        journal.missed.append("The mesh has 1 hole.")
+    report = Report.of(journal, ONE_TRIANGLE, Distances.of(np.zeros(1), spacing=1.0))
+    return Reconstruction(cloud.points[:3], np.array([[0, 1, 2]]), report)
 
 
-def embed_points(
-    points: Array,
-    _normals: Array | None = None,
-    _: Options = Options(),
-    progress: ProgressCallback | None = None,
-    _sensors: Array | None = None,
-) -> Embedding:
+def embed_points(cloud: PointCloud, options: Options, progress: ProgressCallback | None) -> Embedding:  # noqa: ARG001
     """Return the points, padded with zeros."""
     tell(progress, "embedding", 0.0)
+    points = cloud.points
     return Embedding(points, np.zeros_like(points), np.pad(points, ((0, 0), (0, 5))))
 
 

@@ -122,7 +122,6 @@ def test_fill_holes_is_a_size_across() -> None:
 @pytest.mark.parametrize("shape", ["cylinder", "plane"])
 def test_watertight_closes_everything(shape: str) -> None:
     mesh = mesh_of(shape, watertight=True)
-    assert mesh.report.mesh is not None
     assert mesh.report.mesh.closed
     assert mesh.report.missed == []
     assert mesh.report.meshing["holes_left"] == 0

@@ -2,6 +2,7 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -10,17 +11,23 @@ import pytest
 
 from hdpea.options import Options, ParticleOptions
 from hdpea.options.choice import Choice
-from hdpea.report.report import Distances, MeshFacts, Report
+from hdpea.report.report import Distances, Journal, MeshFacts, Report
 from hdpea.report.summary import summarize
+
+SPHERE = MeshFacts(
+    5000, 9996, manifold=True, closed=True, components=1, boundary_loops=0, genus=0, self_intersections=0
+)
+
+
+def report_of(journal: Journal, facts: MeshFacts = SPHERE) -> Report:
+    return Report.of(journal, facts, Distances.of(np.array([0.0, 3.0, 4.0]), spacing=0.5))
 
 
 def filled() -> Report:
-    report = Report(Options(particles=ParticleOptions(seed=7)))
+    report = report_of(Journal(options=Options(particles=ParticleOptions(seed=7))))
     report.counts["points"] = 40_000
     report.choices.append(Choice("curvature radius", 0.0123, "world units", "twice the vertex spacing"))
     report.meshing["t3"] = np.int64(10_000)  # type: ignore[assignment]  # numpy's numbers slip in easily
-    report.mesh = MeshFacts(5000, 9996, manifold=True, closed=True, components=1, boundary_loops=0, genus=0)
-    report.distances = Distances.of(np.array([0.0, 3.0, 4.0]), spacing=0.5)
     report.notes.append("12 points were dropped.")
     with report.clock.stage("embedding"):
         pass
@@ -45,12 +52,13 @@ def test_everything_is_in_the_file(tmp_path: Path) -> None:
     assert content["total"]["peak_bytes"] > 0
 
 
-def test_an_empty_report_is_legal(tmp_path: Path) -> None:
-    assert written(Report(Options()), tmp_path)["mesh"] is None
+def test_a_run_that_noted_nothing_has_a_report(tmp_path: Path) -> None:
+    content = written(report_of(Journal(options=Options())), tmp_path)
+    assert (content["choices"], content["notes"], content["total"]["seconds"]) == ([], [], 0)
 
 
 def test_nan_becomes_null_instead_of_an_error_at_the_end_of_a_long_run(tmp_path: Path) -> None:
-    report = Report(Options())
+    report = report_of(Journal(options=Options()))
     report.choices.append(Choice("radius", float("nan"), "world units", "a bug"))
     assert written(report, tmp_path)["choices"][0]["value"] is None
 
@@ -70,6 +78,5 @@ def test_summary_is_short_and_says_what_came_out() -> None:
 
 
 def test_summary_does_not_hide_a_bad_mesh() -> None:
-    report = Report(Options())
-    report.mesh = MeshFacts(9, 9, manifold=False, closed=False, components=2, boundary_loops=3, genus=None)
-    assert "NOT manifold, 3 boundary loops, 2 components" in summarize(report)
+    torn = replace(SPHERE, manifold=False, closed=False, components=2, boundary_loops=3, genus=None)
+    assert "NOT manifold, 3 boundary loops, 2 components" in summarize(report_of(Journal(options=Options()), torn))

@@ -1,0 +1,53 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What came out of a run: the mesh checked, and measured against the points it was made of."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+from hdpea import _core
+from hdpea.errors import HdpeaError
+from hdpea.mesh.budget import Budget
+from hdpea.mesh.extraction import Mesh
+from hdpea.options import MeshingOptions
+from hdpea.report.report import Distances, MeshFacts
+from hdpea.surface.surface import Surface
+
+
+def mesh_facts(mesh: Mesh) -> MeshFacts:
+    """Check a mesh, by code that its construction has no part in.
+
+    Raises
+    ------
+    HdpeaError
+        If it is not manifold and oriented: such a mesh is an error of hdpea's, and never leaves.
+    """
+    check = _core.check_mesh(mesh.vertices_in_unit, mesh.faces)
+    if not (check.manifold and check.oriented):
+        raise HdpeaError("The mesh is not manifold.", "This is an error in hdpea: please report it with the input.")
+    return MeshFacts(
+        vertices=check.vertices,
+        faces=check.faces,
+        manifold=check.manifold,
+        closed=check.closed,
+        components=check.components,
+        boundary_loops=check.boundary_loops,
+        genus=check.genus if check.closed else None,
+        self_intersections=_core.count_self_intersections(mesh.vertices_in_unit, mesh.faces),
+    )
+
+
+def distances_to(mesh: Mesh, surface: Surface) -> Distances:
+    """Measure how far the points of a surface are from the mesh."""
+    nearest = _core.closest_surface_points(mesh.vertices_in_unit, mesh.faces, surface.points_in_unit)
+    diagonal = surface.frame.diagonal
+    return Distances.of(nearest.distance * diagonal, surface.spacing * diagonal)
+
+
+def missed_targets(mesh: Mesh, facts: MeshFacts, options: MeshingOptions) -> Iterator[str]:
+    """Yield a sentence for each wish that the mesh does not meet."""
+    excess = Budget.of(options).excess(mesh)
+    if excess:
+        yield f"The budget was missed by {abs(excess):.1%}."
+    if options.watertight and not facts.closed:
+        yield f"The mesh is not watertight: {facts.boundary_loops} boundary loops are left."

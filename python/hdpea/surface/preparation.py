@@ -1,0 +1,89 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""From a cleaned cloud to the oriented surface that is embedded: normals, which side is out, denoising."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from hdpea.options import DenoisingOptions, NormalOptions
+from hdpea.options.choice import Choice
+from hdpea.reading.cloud import PointCloud
+from hdpea.runtime.clock import StageClock
+from hdpea.runtime.progress import ProgressCallback
+from hdpea.surface.denoising import denoised
+from hdpea.surface.normals import OrientedSurface, oriented_surface
+from hdpea.surface.orientation import TRUSTED_CONSISTENCY
+from hdpea.surface.surface import Surface
+
+
+@dataclass(frozen=True)
+class Preparation:
+    """A surface ready to be embedded, and how it was prepared.
+
+    Attributes
+    ----------
+    surface
+        What is embedded: denoised, if the options or the noise ask for it.
+    oriented
+        The same before denoising, with how it came by its normals. Both have one frame and one order of the points.
+    choices
+        What was chosen automatically, in the order of the stages.
+    notes
+        Sentences for the user about this cloud.
+    """
+
+    surface: Surface
+    oriented: OrientedSurface
+    choices: tuple[Choice, ...]
+    notes: tuple[str, ...]
+
+
+def prepare_surface(
+    cloud: PointCloud,
+    normals: NormalOptions | None = None,
+    denoising: DenoisingOptions | None = None,
+    points_per_vertex: float = 8.0,
+    progress: ProgressCallback | None = None,
+    clock: StageClock | None = None,
+) -> Preparation:
+    """Prepare a cleaned cloud, as ``hdpea.reading`` returns it, for the embedding.
+
+    Parameters
+    ----------
+    denoising
+        None leaves the points where they are.
+    points_per_vertex
+        Points for each particle that is to be spread: with more, normals are fitted to more neighbours.
+    progress
+        Hears of the phases normals and denoising.
+    clock
+        Measures them as stages.
+
+    Raises
+    ------
+    CannotReconstruct
+        If the points are too few, equal or on a line.
+    UnreadableInput
+        If the file's normals, or their signs, are insisted on and unusable.
+    UsageError
+        If normals are to be turned to a viewpoint and there is none.
+    """
+    clock = clock or StageClock()
+    with clock.stage("normals"):
+        oriented = oriented_surface(cloud.points, cloud.normals, normals, points_per_vertex, progress, cloud.sensors())
+    surface, choices = oriented.surface, oriented.choices
+    if denoising is not None:
+        with clock.stage("denoising"):
+            surface, chosen = denoised(oriented, denoising, progress)
+            choices += chosen
+    return Preparation(surface, oriented, choices, tuple(_notes(cloud, oriented)))
+
+
+def _notes(cloud: PointCloud, oriented: OrientedSurface) -> list[str]:
+    notes = []
+    if oriented.estimated > cloud.unusable_normals:
+        notes.append(f"Normals of {oriented.estimated:,} points were estimated.")
+    if oriented.reoriented and oriented.consistency is not None and oriented.consistency < TRUSTED_CONSISTENCY:
+        share = f"{oriented.consistency:.0%} of neighbours agreed"
+        notes.append(f"The given normals point both ways ({share}); they were oriented anew.")
+    return notes
