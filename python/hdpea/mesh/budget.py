@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How many vertices or faces are wanted, and by how much a mesh misses that."""
+"""The number of vertices or faces that is wanted, and by how much a mesh misses it."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from hdpea.options.choice import Choice
 from hdpea.options.meshing import POINTS_PER_VERTEX
 
 TOLERANCE = 0.01
-"""Share of what was asked for by which a mesh may miss it; one vertex, or face, is always allowed."""
+"""Relative difference from the number asked for that is tolerated; one vertex, or face, always is."""
 
 
 @dataclass(frozen=True)
@@ -28,9 +28,9 @@ class Budget:
         return cls(options.vertices if options.faces is None else options.faces, options.faces is not None)
 
     def excess(self, mesh: Mesh) -> float:
-        """Return what the mesh has too many of, as a share of what was asked for.
+        """Return by what share of the number asked for the mesh exceeds it.
 
-        Less than 0 if it has too few, and 0 if it is as asked, but for the tolerance.
+        Negative if it has too few; 0 within the tolerance.
         """
         if self.asked is None:
             return 0.0

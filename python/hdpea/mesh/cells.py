@@ -13,15 +13,14 @@ CELL_NEIGHBORS = 40
 
 
 PLANE_NEIGHBORS = 7
-"""Nearest particles that a particle's plane goes through: those that its cell meets in an even spread, and one more."""
+"""Nearest particles that a particle's plane is fitted to: those of its cell in an even spread, and one more."""
 
 SPARSE_NEIGHBOR = 2
-"""Index of the neighbour whose distance widens a disk where it is beyond the mean spacing: the third, which particles
-at a border have, too."""
-
+"""Index of the neighbour whose distance widens a disk where it exceeds the mean spacing: the third, which particles at
+a border also have."""
 
 MAX_SLOPE = 0.95
-"""Sine of the steepest way to them from the cloud's plane there: what is steeper lies on another sheet."""
+"""Sine of the largest angle between a neighbour's direction and the cloud's plane: beyond it lies another sheet."""
 
 
 def restricted_cells(
@@ -29,7 +28,7 @@ def restricted_cells(
 ) -> tuple[_core.Candidates, NDArray[np.float64]]:
     """Return the triangles dual to the cells' corners with the cells' areas, and the disks' radii (m,) in R^d.
 
-    Disks lie in the planes of the particles themselves, not of the cloud (paper, section 3.3): where the surface
+    Disks lie in the planes of the particles themselves, not of the cloud (HD-PEA, section 3.3): where the surface
     bends within a cell, as on thin struts, those of neighbours agree better, and so do their cells. Where the points
     are too few for the stretch of the embedding, particles lie farther apart than on average; there the disks are
     wider, or they would not meet.

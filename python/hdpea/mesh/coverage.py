@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Triangles that nothing of the cloud lies under: where it is open, cells meet across the gap."""
+"""Candidate triangles without points of the cloud below them: where it is open, cells meet across the gap."""
 
 from __future__ import annotations
 
@@ -53,8 +53,8 @@ def _lie_on(
 ) -> NDArray[np.bool_]:
     """Return whether one of the `count` nearest points to each place (t, 3) is near enough (t,) and faces `towards`."""
     below = _core.nearest_neighbors(surface.points_in_unit, places, count)  # (t, k)
-    ways = surface.points_in_unit[below] - places[:, None]
-    near = np.einsum("tkx,tkx->tk", ways, ways) <= farthest[:, None] ** 2
+    offsets = surface.points_in_unit[below] - places[:, None]
+    near = np.einsum("tkx,tkx->tk", offsets, offsets) <= farthest[:, None] ** 2
     facing = np.einsum("tkx,tx->tk", surface.normals[below], towards) > 0
     return np.asarray((near & facing).any(axis=1))
 

@@ -40,7 +40,7 @@ class Mesh:
     coordinates
         (v, d) float64: where the vertices are in the embedding; a fit to the points does not move them there.
     statistics
-        What became of the candidate triangles and of the holes, by name; of the mesh before it was simplified.
+        Counts of candidate triangles and holes by name, before any simplification.
     choices
         The lengths that were chosen automatically, in world units.
     """

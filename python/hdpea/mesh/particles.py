@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Particles that spread evenly over the embedded surface: the vertices to be."""
+"""Particles that spread evenly over the embedded surface: the future vertices."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     import torch
 
 KERNEL_WIDTH = 0.28
-"""sigma in units of sqrt(area / particles). The paper has 0.32 (section B); a little narrower orders them better."""
+"""sigma in units of sqrt(area / particles). HD-PEA (section B) takes 0.32; a slightly narrower kernel orders better."""
 
 AREA_DISK_RADIUS = 2.0
 """Radius of the disks that measure the area, in mean distances of the seeds: large enough to hold their cells."""
@@ -28,16 +28,16 @@ INTERACTIONS = 16
 """Particles that push each particle; the kernel is negligible beyond."""
 
 REFRESH = 5
-"""Steps after which they are searched for anew."""
+"""Steps after which these neighbours are searched for again."""
 
 MOMENTUM = 0.8
-"""Share of each step that the next one goes on with (heavy ball): worth three times the iterations without."""
+"""Share of each step that is added to the next one (heavy ball): worth three times the iterations without."""
 
 STEP, DECAY, DECAY_EVERY = 0.5, 0.8, 20
-"""First step in units of sigma^2 times the force, and its decay (paper, section E, without momentum: 0.6).
+"""First step in units of sigma^2 times the force, and its decay (HD-PEA, section E, without momentum: 0.6).
 
-With momentum, twice that step orders the particles as well, but lets a difference of 1e-13 in the embedding grow
-700 times in 100 steps, where this one lets it grow 150 times."""
+Twice that step orders the particles equally well with momentum, but amplifies a difference of 1e-13 in the embedding
+700 times in 100 steps, this one 150 times."""
 
 STRIDES = 12
 """Neighbours among which a particle's nearest cloud point is followed from step to step."""
@@ -60,7 +60,7 @@ class Particles:
 
 
 class _Cloud:
-    """The embedded surface as particles see it: points, tangent planes, and steps to neighbours."""
+    """The embedded surface in torch: points, tangent planes, and steps to neighbours."""
 
     def __init__(
         self, coordinates: NDArray[np.float64], bases: NDArray[np.float64], neighbors: NDArray[np.int64]
@@ -111,9 +111,9 @@ def spread_particles(
     """Spread `count` particles evenly over a surface in R^d.
 
     From farthest-point samples, particles descend the energy ``sum exp(-|x_i - x_j|^2 / 4 sigma^2)`` by its
-    closed-form force, and are projected to the tangent plane of the nearest point after each step (paper,
-    sections 3.2, A and B). ``sigma = 0.32 sqrt(area / count)``, with the area of the restricted Voronoi
-    cells: the paper's estimate counts every neighbourhood twelve times.
+    closed-form force, and are projected to the tangent plane of the nearest point after each step (HD-PEA,
+    sections 3.2, A and B). ``sigma = KERNEL_WIDTH sqrt(area / count)``, with the area of the restricted Voronoi
+    cells: the estimate of HD-PEA counts every neighbourhood twelve times.
 
     Parameters
     ----------

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A mesh of few vertices from one of many.
+"""A coarse mesh from a fine one, by edge collapses.
 
-Where a few particles would have to show parts thinner than they are apart, their cells do not meet. So a small mesh is
-not made of few particles: edges of a finer one are collapsed.
+The cells of few particles do not meet on parts thinner than the particles are apart. So a coarse mesh is made by
+collapsing edges of a finer one.
 """
 
 from __future__ import annotations
@@ -19,8 +19,8 @@ from hdpea.options import MeshingOptions
 def simplify_mesh(mesh: Mesh, options: MeshingOptions, progress: Callable[[float], bool] | None = None) -> Mesh:
     """Return the mesh with edges collapsed until it has no more vertices, or faces, than are wanted.
 
-    The least loss goes first: distance from the surface that was (Garland and Heckbert 1997), and evenness of the
-    vertices in the embedding. The topology stays, so that a budget may be out of reach.
+    The cheapest edge goes first; its cost is the squared distance from the original surface (Garland and Heckbert
+    1997) and the loss of evenness in the embedding. The topology stays, so that a budget may be out of reach.
     """
     budget = _core.MeshBudget()
     if options.vertices is not None:

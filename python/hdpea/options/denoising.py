@@ -8,16 +8,16 @@ from dataclasses import dataclass
 from hdpea.options.checked import Checked, option
 
 ROUGH = 0.15
-"""Roughness, in spacings of the points, from which moving least squares mends more than it blurs."""
+"""Roughness, in spacings of the points, from which moving least squares gains more than it blurs."""
 
 FEWEST_FITTED, MOST_FITTED = 80, 320
-"""Neighbours that moving least squares fits, by how rough the points are: with more, less noise is left, and less of
-what bends."""
+"""Fewest and most neighbours that moving least squares fits, depending on the roughness: more of them remove more
+noise, and more detail."""
 
 
 @dataclass(frozen=True)
 class DenoisingOptions(Checked):
-    """How noise is taken from the points (``hdpea.surface.denoising``)."""
+    """How the points are denoised (``hdpea.surface.denoising``)."""
 
     denoise: str = option(
         "auto",

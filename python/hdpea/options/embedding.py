@@ -20,7 +20,7 @@ class EmbeddingOptions(Checked):
         choices=("direct", "learned"),
     )
     weights: str | None = option(
-        None, "learned: file of the network's weights, as `hdpea train` writes it; default: those that come along"
+        None, "learned: file of the network's weights, as `hdpea train` writes it; default: those shipped with hdpea"
     )
     whole_points: int = option(
         80_000, "learned: clouds of more points are embedded in patches that are joined (PMEI)", minimum=1

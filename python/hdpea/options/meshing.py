@@ -10,7 +10,7 @@ from hdpea.options.checked import Checked, option
 from hdpea.options.lengths import Length
 
 POINTS_PER_VERTEX = 8
-"""How many points share a vertex unless a number of vertices or faces is asked for."""
+"""Points per vertex unless a number of vertices or faces is asked for."""
 
 
 @dataclass(frozen=True)

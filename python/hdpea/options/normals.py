@@ -12,7 +12,7 @@ from hdpea.options.position import Position
 
 @dataclass(frozen=True)
 class NormalOptions(Checked):
-    """How normals are had (``hdpea.surface.normals``)."""
+    """Where normals come from, and which side is out (``hdpea.surface``)."""
 
     normals: str = option(
         "auto",

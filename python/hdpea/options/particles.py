@@ -9,10 +9,10 @@ from hdpea.options.checked import Checked, option
 from hdpea.options.meshing import POINTS_PER_VERTEX
 
 ENOUGH_PARTICLES, ENOUGH_PER_VERTEX = 20_000, 2
-"""As many particles show any surface, or so many for each vertex of its mesh: more points do not make them more."""
+"""Most particles, and most for each vertex wanted, whichever is larger, however many points there are."""
 
 WORTH_SIMPLIFYING = 1.2
-"""From so many particles for each vertex on, their mesh simplified errs less; with fewer, G is lost for nothing."""
+"""Fewest particles per vertex at which simplifying a finer mesh is more accurate; below, it is only less even."""
 
 
 @dataclass(frozen=True)

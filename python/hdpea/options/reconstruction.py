@@ -17,7 +17,7 @@ from hdpea.options.refinement import RefinementOptions
 
 @dataclass(frozen=True)
 class Options(Checked):
-    """Everything ``hdpea.reconstruct`` can be told."""
+    """All options of ``hdpea.reconstruct``."""
 
     normals: NormalOptions = NormalOptions()
     denoising: DenoisingOptions = DenoisingOptions()

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Normals: taken from the file where they are usable, else estimated; always consistently oriented."""
+"""Normals: those of the file where they are usable, else estimated; always consistently oriented."""
 
 from __future__ import annotations
 
@@ -14,33 +14,33 @@ from hdpea.geometry.unit_frame import UnitFrame
 from hdpea.options import NormalOptions
 from hdpea.options.choice import Choice
 from hdpea.runtime.progress import ProgressCallback, of_phase, tell
-from hdpea.surface.orientation import Unoriented, Vectors, orient, require_signs
+from hdpea.surface.orientation import SignEvidence, Vectors, orient, require_signs
 from hdpea.surface.roughness import Roughness, roughness_of
 from hdpea.surface.surface import NEIGHBORS, Surface, require_surface
 
 ORIENTATION_NEIGHBORS = 16
-"""Nearest points to which a point hands on its orientation, and fewest that an estimated normal is fitted to."""
+"""Nearest points to which a point passes its orientation, and the fewest that an estimated normal is fitted to."""
 
 NEIGHBORS_PER_NOISE, MOST_NEIGHBORS = 240, 80
-"""Of an estimated normal: for each spacing of noise, and the most.
+"""Neighbours that an estimated normal is fitted to, for each spacing of noise, and the most.
 
-A plane's slope is off by 2 sqrt(pi) noise / (spacing n) with n neighbours: so by a degree."""
+The slope of a plane through n neighbours errs by 2 sqrt(pi) noise / (spacing n): so by a degree."""
 
 
 @dataclass(frozen=True)
 class OrientedSurface:
-    """A surface, and how it came by its normals.
+    """A surface, and where its normals are from.
 
     Attributes
     ----------
     roughness
         Of the points as given.
     estimated
-        How many normals had to be estimated.
+        How many normals were estimated.
     consistency
         Share of neighbours whose given normals agreed in orientation; None without given normals.
     reoriented
-        Whether the orientation was made anew, whatever the given normals say.
+        Whether the orientation was computed, whatever the given normals say.
     choices
         What was chosen automatically.
     """
@@ -64,8 +64,8 @@ def oriented_surface(
     """Move a cloud to its unit frame and give it consistently oriented normals.
 
     Given normals keep their directions; their signs are kept only if neighbours agree about them, so a
-    cloud whose normals point both ways gives the same surface as one that is well oriented. The option
-    `orient` has it otherwise.
+    cloud whose normals point to both sides gives the same surface as one that is well oriented. The option
+    `orient` overrules this.
 
     Parameters
     ----------
@@ -74,7 +74,7 @@ def oriented_surface(
     normals
         (n, 3) float64 of length 1, or 0 where unusable.
     points_per_vertex
-        Points for each vertex that the mesh will have: with more, normals are fitted to more neighbours, so
+        Points for each particle that is to be spread: with more, normals are fitted to more neighbours, so
         that noise averages out in a redundant cloud.
     sensors_in_world
         (n, 3) float64, from where each point was seen; needed only to orient by viewpoint.
@@ -84,7 +84,7 @@ def oriented_surface(
     CannotReconstruct
         If the points are too few, equal or on a line.
     UnreadableInput
-        If the file's normals, or their signs, are insisted on and unusable.
+        If the options demand the file's normals, or their signs, and they are unusable.
     UsageError
         If normals are to be turned to a viewpoint and there is none.
     """
@@ -107,18 +107,18 @@ def oriented_surface(
         nearest = np.ascontiguousarray(neighbors[:, :ORIENTATION_NEIGHBORS])
         roughness = roughness_of(points)
         directions, choices = _directions(points, given, usable, neighbors, roughness, options, points_per_vertex)
-        # Where normals are to be estimated whatever is given, what is given has no say unless it is asked for.
-        heard = given if options.orient == "file" else np.where(usable[:, None], given, 0)
-        cloud = Unoriented(points, directions, ~usable, heard, nearest, roughness)
+        # Where all normals are to be estimated, the signs of given ones count only if they are asked for.
+        trusted = given if options.orient == "file" else np.where(usable[:, None], given, 0)
+        evidence = SignEvidence(trusted, ~usable, nearest, roughness)
         seen_from = sensors_in_world if options.viewpoint is None else options.viewpoint.as_array()
         towards = None if seen_from is None else frame.to_unit(seen_from)
-        orientation = orient(cloud, options.orient, towards, of_phase(progress, "normals"))
+        orientation = orient(points, directions, evidence, options.orient, towards, of_phase(progress, "normals"))
         if options.orient == "auto":
-            choices += (Choice("orient", orientation.way, "", orientation.why),)
-        consistency = cloud.consistency
+            choices += (Choice("orient", orientation.method, "", orientation.why),)
+        consistency = evidence.consistency(points)
     tell(progress, "normals", 1)
     surface = Surface.of(frame, points, orientation.normals, neighbors)
-    reoriented = orientation.way != "file"
+    reoriented = orientation.method != "file"
     return OrientedSurface(surface, roughness, int((~usable).sum()), consistency, reoriented, choices)
 
 

@@ -1,11 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Which side of the surface is out: the ways of finding the signs of normals whose directions are known."""
+"""Which side of the surface is out: methods that find the signs of normals whose directions are known."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,60 +17,55 @@ from hdpea.surface.roughness import Roughness
 Vectors = NDArray[np.float64]
 
 TRUSTED_CONSISTENCY = 0.9
-"""Share of neighbours in agreement from which the file's orientation is taken as it is; random signs have 0.5."""
+"""Share of neighbours in agreement from which the file's orientation is kept; random signs give 0.5."""
 
 AGREEING_COSINE = 0.5
-"""Least |cosine| with the winding number's normal at which a direction is taken for the same normal: 60 degrees."""
+"""Least |cosine| with the winding number's normal at which a direction counts as the same normal: 60 degrees."""
 
 DEVIATIONS_WIDE = 1.6
-"""Widening of the winding number for each standard deviation of the noise.
+"""Smoothing width of the winding number for each standard deviation of the noise.
 
-With less it sees single points, and beside the holes of scans half of a thick shell of noise turns inwards (boot, noise
-of 0.5 % of the diagonal); with more the two sides of a wall are one (goblet_top, as much noise, from 2.0 on)."""
+A smaller width resolves single points, and beside holes half of a thick shell of noise turns inwards (boot, noise of
+0.5 % of the diagonal); a larger one merges the two sides of a wall (goblet_top, as much noise, from 2.0 on)."""
 
 MOST_OF_WALLS = 0.15
-"""Deviation, in spacings, from which what is not like noise widens no more: the sides of walls are to be parted."""
+"""Largest deviation, in spacings, that counts for the width where it is not noise: walls must keep two sides."""
 
 
 @dataclass(frozen=True)
-class Unoriented:
-    """Points, and normals whose signs mean nothing yet.
+class SignEvidence:
+    """What is known of the signs of normals (n, 3) besides their directions.
 
     Attributes
     ----------
-    points, directions
-        (n, 3) float64; the directions of length 1.
+    given
+        (n, 3) float64: normals whose signs may be used, of length 1, or 0 where there is none.
     estimated
         (n,) bool: which directions are estimates, not given.
-    given
-        (n, 3) float64: normals whose signs may be heard, of length 1, or 0 where there is none.
     neighbors
         (n, k) int64: nearest other points, -1 pads.
     roughness
         Of the points.
     """
 
-    points: Vectors
-    directions: Vectors
-    estimated: NDArray[np.bool_]
     given: Vectors
+    estimated: NDArray[np.bool_]
     neighbors: NDArray[np.int64]
     roughness: Roughness
 
-    @cached_property
-    def consistency(self) -> float | None:
-        """The share of neighbours whose given normals agree on the side; None if none is given."""
+    def consistency(self, points: Vectors) -> float | None:
+        """Return the share of neighbouring `points` (n, 3) whose given normals agree on the side; None without any."""
         if not self.given.any():
             return None
-        return _core.orientation_consistency(self.points, self.given, self.neighbors)
+        return _core.orientation_consistency(points, self.given, self.neighbors)
 
 
 @dataclass(frozen=True)
 class Orientation:
-    """Oriented unit normals (n, 3); the way they were oriented, one of ``NormalOptions.orient``; and why so."""
+    """Oriented unit normals (n, 3); the method, one of ``NormalOptions.orient``; and why it was chosen."""
 
     normals: Vectors
-    way: str
+    method: str
     why: str = ""
 
 
@@ -98,69 +92,91 @@ def require_signs(given: Vectors, sensors: Vectors | None, options: NormalOption
 
 
 def orient(
-    cloud: Unoriented, way: str, seen_from: Vectors | None = None, progress: Callable[[float], bool] | None = None
+    points: Vectors,
+    directions: Vectors,
+    evidence: SignEvidence,
+    method: str,
+    seen_from: Vectors | None = None,
+    progress: Callable[[float], bool] | None = None,
 ) -> Orientation:
-    """Give normals their signs, in the given way of ``NormalOptions.orient``.
+    """Give normals their signs by the given method of ``NormalOptions.orient``.
 
     Parameters
     ----------
+    points, directions
+        (n, 3) float64; the directions are of length 1, and their signs mean nothing yet.
     seen_from
-        (n, 3) or (3,), the sensor of each point or of all; needed for the way ``viewpoint``.
+        (n, 3) or (3,), the sensor of each point or of all; needed for the method ``viewpoint``.
     """
-    if way == "auto":
-        return _orient_as_fits(cloud, progress)
-    if way == "wnnc":
-        return Orientation(by_winding_number(cloud, progress), way)
-    if way == "viewpoint" and seen_from is not None:
-        return Orientation(turned(cloud.directions, seen_from - cloud.points), way)
-    return Orientation(by_file(cloud) if way == "file" else by_spanning_tree(cloud), way)
+    if method == "auto":
+        return _by_best_method(points, directions, evidence, progress)
+    if method == "wnnc":
+        return Orientation(by_winding_number(points, directions, evidence, progress), method)
+    if method == "viewpoint" and seen_from is not None:
+        return Orientation(turned(directions, seen_from - points), method)
+    if method == "file":
+        return Orientation(by_file(points, directions, evidence), method)
+    return Orientation(by_spanning_tree(points, directions, evidence), method)
 
 
-def _orient_as_fits(cloud: Unoriented, progress: Callable[[float], bool] | None) -> Orientation:
-    consistency = cloud.consistency
-    if consistency is not None and consistency >= TRUSTED_CONSISTENCY:
-        return Orientation(by_file(cloud), "file", f"{consistency:.0%} of neighbours agree on the side")
-    ways = {"wnnc": by_winding_number(cloud, progress), "mst": by_spanning_tree(cloud)}
-    agreed = {
-        way: _core.orientation_consistency(cloud.points, normals, cloud.neighbors) for way, normals in ways.items()
+def _by_best_method(
+    points: Vectors, directions: Vectors, evidence: SignEvidence, progress: Callable[[float], bool] | None
+) -> Orientation:
+    given = evidence.consistency(points)
+    if given is not None and given >= TRUSTED_CONSISTENCY:
+        return Orientation(
+            by_file(points, directions, evidence), "file", f"{given:.0%} of neighbours agree on the side"
+        )
+    candidates = {
+        "wnnc": by_winding_number(points, directions, evidence, progress),
+        "mst": by_spanning_tree(points, directions, evidence),
     }
-    # Noise and thin walls lead the spanning tree astray, large openings the winding number: then neighbours disagree.
+    agreed = {
+        method: _core.orientation_consistency(points, normals, evidence.neighbors)
+        for method, normals in candidates.items()
+    }
+    # Noise and thin walls mislead the spanning tree, large openings the winding number: then neighbours disagree.
     best, other = ("wnnc", "mst") if agreed["wnnc"] >= agreed["mst"] else ("mst", "wnnc")
     why = f"{agreed[best]:.2%} of neighbours agree on the side, by {other} {agreed[other]:.2%}"
-    return Orientation(ways[best], best, why)
+    return Orientation(candidates[best], best, why)
 
 
-def by_file(cloud: Unoriented) -> Vectors:
-    """Turn the directions as the given normals have it, and where there is none, as the nearest other has it."""
-    signed = turned(cloud.directions, cloud.given)
-    usable = np.asarray(cloud.given.any(axis=1))
+def by_file(points: Vectors, directions: Vectors, evidence: SignEvidence) -> Vectors:
+    """Take the signs of the given normals, and where there is none, that of the nearest point that has one."""
+    signed = turned(directions, evidence.given)
+    usable = np.asarray(evidence.given.any(axis=1))
     if usable.all():
         return signed
-    oriented = by_spanning_tree(cloud)
+    oriented = by_spanning_tree(points, directions, evidence)
     kept = cosines(oriented, signed)[usable] >= 0
-    nearest_usable = _core.nearest_neighbors(cloud.points[usable], cloud.points[~usable], 1)[:, 0]
+    nearest_usable = _core.nearest_neighbors(points[usable], points[~usable], 1)[:, 0]
     signed[~usable] = np.where(kept[nearest_usable], 1, -1)[:, None] * oriented[~usable]
     return signed
 
 
-def by_spanning_tree(cloud: Unoriented) -> Vectors:
-    """Hand on the side from neighbour to neighbour, the surest first."""
-    return _core.orient_normals(cloud.points, cloud.directions, cloud.neighbors)
+def by_spanning_tree(points: Vectors, directions: Vectors, evidence: SignEvidence) -> Vectors:
+    """Propagate the sign from neighbour to neighbour, along the edges whose ends are most nearly parallel."""
+    return _core.orient_normals(points, directions, evidence.neighbors)
 
 
-def by_winding_number(cloud: Unoriented, progress: Callable[[float], bool] | None = None) -> Vectors:
-    """Turn the directions as the winding number has it; estimates far off it are replaced by its own."""
-    options, roughness = _core.WnncOptions(), cloud.roughness
+def by_winding_number(
+    points: Vectors,
+    directions: Vectors,
+    evidence: SignEvidence,
+    progress: Callable[[float], bool] | None = None,
+) -> Vectors:
+    """Take the signs of the winding number's normals; estimates far from these are replaced by them."""
+    options, roughness = _core.WnncOptions(), evidence.roughness
     noise = roughness.deviation if roughness.like_noise else min(roughness.deviation, MOST_OF_WALLS)
     options.spacings_wide += DEVIATIONS_WIDE * noise
-    winding = _core.wnnc_normals(cloud.points, options, progress)
-    agreeing = abs(cosines(cloud.directions, winding)) >= AGREEING_COSINE
-    signed = turned(cloud.directions, winding)
-    # An estimate far off was fitted across an edge or a thin wall, which the winding number knows of.
-    replaced = cloud.estimated & ~agreeing
+    winding = _core.wnnc_normals(points, options, progress)
+    agreeing = abs(cosines(directions, winding)) >= AGREEING_COSINE
+    signed = turned(directions, winding)
+    # An estimate far off was fitted across an edge or a thin wall, which the winding number tells apart.
+    replaced = evidence.estimated & ~agreeing
     signed[replaced] = winding[replaced]
     # Beside large holes of the cloud it may be wrong about half a face: so faces vote.
-    return _core.agree_on_signs(cloud.points, signed, cloud.neighbors)
+    return _core.agree_on_signs(points, signed, evidence.neighbors)
 
 
 def turned(directions: Vectors, towards: Vectors) -> Vectors:

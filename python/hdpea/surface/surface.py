@@ -13,13 +13,13 @@ from hdpea.errors import CannotReconstruct, core_errors_translated
 from hdpea.geometry.unit_frame import UnitFrame
 
 NEIGHBORS = 40
-"""Nearest points looked at around each point; enough for every stage, so they are searched for once."""
+"""Nearest points of each point that are searched for, once for all stages."""
 
 AREA_NEIGHBORS = 12
-"""Nearest points of the same sheet that an area is taken from."""
+"""Nearest points of the same sheet that an area is estimated from."""
 
 MIN_POINTS = 16
-"""Fewer points than this say nothing about a surface."""
+"""Fewer points than this do not show a surface."""
 
 
 @dataclass(frozen=True)
@@ -71,8 +71,8 @@ def median_spacing(points: NDArray[np.float64], neighbors: NDArray[np.int64]) ->
 def area_shown(points: NDArray[np.float64], neighbors: NDArray[np.int64]) -> float:
     """Return the area of the surface that points (n, 3) show, to some percent; `neighbors` (n, k) as in ``Surface``.
 
-    It is taken from the nearest ``AREA_NEIGHBORS``: a disk that reaches to the k-th neighbour of a point holds
-    k points' worth of area, however dense they are there.
+    It is estimated from the nearest ``AREA_NEIGHBORS``: the disk out to the k-th neighbour of a point holds the area
+    of k points, at any density.
     """
     neighbors = neighbors[:, :AREA_NEIGHBORS]
     known = neighbors >= 0
@@ -94,6 +94,6 @@ def require_surface(points_in_unit: NDArray[np.float64]) -> None:
             f"{len(points_in_unit)} distinct points are too few for a surface.", f"Give at least {MIN_POINTS}."
         )
     extents = np.linalg.svd(points_in_unit - points_in_unit.mean(axis=0), compute_uv=False)
-    # With room for the rounding of large coordinates: a decimetre at 1e7 metres has steps of 2e-8 of its length.
+    # This tolerates the rounding of large coordinates: 0.1 m at 1e7 m has steps of 2e-8 of its length.
     if extents[1] < 1e-6 * extents[0]:
         raise CannotReconstruct("All points lie on a line.", "A surface needs points that are spread over it.")
