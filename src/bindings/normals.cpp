@@ -1,9 +1,0 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
-#include "hdpea_cpp/normals.hpp"
-
-#include "bindings.hpp"
-
-void register_normals(nb::module_& module) {
-  module.def("estimate_normals", &hdpea::estimate_normals, "points"_a, "neighbors"_a, ReleaseGil(),
-             "Unoriented unit normals (n, 3) by planes of each point's neighbours (n, k), sharp at creases.");
-}

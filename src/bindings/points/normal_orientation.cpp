@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hdpea_cpp/points/normal_orientation.hpp"
+
+#include "bindings/bindings.hpp"
+
+void register_normal_orientation(nb::module_& module) {
+  module.def("orient_normals", &hdpea::orient_normals, "points"_a, "normals"_a, "neighbors"_a, ReleaseGil(),
+             "Give normals (n, 3) one consistent orientation; their signs on entry do not matter.");
+  module.def("agree_on_signs", &hdpea::agree_on_signs, "points"_a, "normals"_a, "neighbors"_a,
+             "least_cosine"_a = 0.9995, ReleaseGil(),
+             "Give each piece of the surface the sides that most of its normals (n, 3) have.");
+  module.def("orientation_consistency", &hdpea::orientation_consistency, "points"_a, "normals"_a, "neighbors"_a,
+             ReleaseGil(), "Share of neighbours whose signs agree: 1 for oriented normals, 0.5 for random signs.");
+}

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// For sources that work on a mesh with CGAL; no header of the core's includes it.
+#pragma once
+
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Surface_mesh.h>
+
+#include "hdpea_cpp/base/types.hpp"
+
+namespace hdpea {
+
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using SurfaceMesh = CGAL::Surface_mesh<Kernel::Point_3>;
+
+/// Vertices and faces of a mesh in the order it keeps them; removed ones are gone from it afterwards.
+TriangleMesh from_cgal(SurfaceMesh& mesh);
+
+}  // namespace hdpea

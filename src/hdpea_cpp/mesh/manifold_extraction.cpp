@@ -1,0 +1,246 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hdpea_cpp/mesh/manifold_extraction.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "hdpea_cpp/base/errors.hpp"
+#include "hdpea_cpp/mesh/incremental_manifold.hpp"
+#include "hdpea_cpp/mesh/mesh_pieces.hpp"
+
+namespace hdpea {
+namespace {
+
+using Verdict = IncrementalManifold::Verdict;
+
+double radians(double degrees) { return degrees * std::numbers::pi / 180; }
+
+double circumradius(const CoordinatesRef& x, const Triangle& t) {
+  const double a = (x.row(t[1]) - x.row(t[2])).norm();
+  const double b = (x.row(t[2]) - x.row(t[0])).norm();
+  const double c = (x.row(t[0]) - x.row(t[1])).norm();
+  const double sixteen_squared_areas = (a + b + c) * (b + c - a) * (c + a - b) * (a + b - c);
+  if (sixteen_squared_areas <= 0) return std::numeric_limits<double>::infinity();
+  return a * b * c / std::sqrt(sixteen_squared_areas);
+}
+
+class Extractor {
+ public:
+  Extractor(const CoordinatesRef& coordinates, const PointsRef& normals,
+            const Eigen::Ref<const Eigen::VectorXd>& disk_radii, const ExtractionOptions& options)
+      : coordinates_(coordinates),
+        normals_(normals),
+        disk_radii_(disk_radii),
+        options_(options),
+        least_fold_cosine_(std::cos(radians(options.max_fold))),
+        least_normal_cosine_(std::cos(radians(options.max_normal_angle))),
+        least_lone_cosine_(std::cos(radians(options.max_lone_angle))),
+        mesh_(coordinates.rows()) {}
+
+  void insert_candidates(const Candidates& candidates);
+  ExtractedMesh finish();
+
+ private:
+  struct Candidate {
+    Triangle triangle;
+    int count;
+    double radius;
+    /// Best first; the triangle itself breaks ties.
+    auto rank() const { return std::tuple(-count, radius, triangle); }
+  };
+
+  Eigen::Vector3d position(Index i) const { return coordinates_.row(i).head<3>().transpose(); }
+  /// The normal of the ascending triangle, of twice its area's length.
+  Eigen::Vector3d area_vector(const Triangle& t) const {
+    return (position(t[1]) - position(t[0])).cross(position(t[2]) - position(t[0]));
+  }
+  /// Positive if the ascending triangle faces the way its points' normals do, times its area.
+  double outwardness(const Triangle& t) const {
+    return (normals_.row(t[0]) + normals_.row(t[1]) + normals_.row(t[2])).dot(area_vector(t).transpose());
+  }
+  /// The middle one of the radii of the corners' disks.
+  double disk_radius(const Triangle& t) const {
+    const double a = disk_radii_(t[0]), b = disk_radii_(t[1]), c = disk_radii_(t[2]);
+    return std::max(std::min(a, b), std::min(std::max(a, b), c));
+  }
+  bool agrees_with_points(const Triangle& triangle, double least_cosine) const;
+  bool folds_back(const Triangle& triangle) const;
+  bool touches_enough(const Triangle& triangle, bool bridging);
+  bool joins_pieces(Index face, Index vertex);
+  /// Counts what is refused for good; returns whether the triangle went in.
+  bool try_insert(const Candidate& candidate);
+  /// Inserts what touches the mesh by enough edges, until nothing more does; returns what is left.
+  std::vector<Candidate> sweep_t12(std::vector<Candidate> waiting, bool bridging);
+
+  const CoordinatesRef& coordinates_;
+  const PointsRef& normals_;
+  const Eigen::Ref<const Eigen::VectorXd>& disk_radii_;
+  const ExtractionOptions& options_;
+  double least_fold_cosine_, least_normal_cosine_, least_lone_cosine_;
+  IncrementalManifold mesh_;
+  ExtractionCounts counts_;
+};
+
+bool Extractor::agrees_with_points(const Triangle& triangle, double least_cosine) const {
+  const Eigen::Vector3d normal = area_vector(triangle).normalized();
+  double best = 0;  // at a crease a face lies in the plane of one of its points only
+  for (Index i : triangle) best = std::max(best, std::abs(normals_.row(i).dot(normal.transpose())));
+  return best >= least_cosine;
+}
+
+bool Extractor::folds_back(const Triangle& triangle) const {
+  const Eigen::Vector3d normal = area_vector(triangle).normalized();
+  for (int i = 0; i < 3; ++i) {
+    const Index a = triangle[i], b = triangle[(i + 1) % 3];
+    const Index neighbor = mesh_.faces_at(a, b)[0];
+    if (neighbor < 0) continue;
+    const Triangle& other = mesh_.triangles()[neighbor];
+    const double cosine = normal.dot(area_vector(other).normalized());
+    if ((IncrementalManifold::opposite_parity(triangle, other, a, b) ? -cosine : cosine) < least_fold_cosine_)
+      return true;
+  }
+  return false;
+}
+
+bool Extractor::touches_enough(const Triangle& triangle, bool bridging) {
+  int shared = 0;
+  Index opposite = -1, face = -1;
+  for (int i = 0; i < 3; ++i) {
+    const Index at_edge = mesh_.faces_at(triangle[i], triangle[(i + 1) % 3])[0];
+    if (at_edge < 0) continue;
+    ++shared;
+    opposite = triangle[(i + 2) % 3];
+    face = at_edge;
+  }
+  if (shared != 1) return shared > 1;
+  if (!mesh_.faces_of(opposite).empty()) return bridging && joins_pieces(face, opposite);
+  return agrees_with_points(triangle, least_lone_cosine_);
+}
+
+/// Whether no face of the vertex is in the same edge-connected piece as the face, and one side is a fragment: whole
+/// parts that come near each other stay apart.
+bool Extractor::joins_pieces(Index face, Index vertex) {
+  const Index piece = mesh_.piece_of(face).first;
+  const std::vector<Index>& others = mesh_.faces_of(vertex);
+  const auto same = [&](Index other) { return mesh_.piece_of(other).first == piece; };
+  const auto small = [&](Index other) { return mesh_.piece_size(other) <= options_.max_bridged_faces; };
+  return std::none_of(others.begin(), others.end(), same) &&
+         (small(face) || std::all_of(others.begin(), others.end(), small));
+}
+
+bool Extractor::try_insert(const Candidate& candidate) {
+  const auto refuse = [](Index& counter) {
+    ++counter;
+    return false;
+  };
+  if (candidate.radius > options_.max_circumradius * disk_radius(candidate.triangle))
+    return refuse(counts_.refused_size);
+  if (!agrees_with_points(candidate.triangle, least_normal_cosine_)) return refuse(counts_.refused_normal);
+  switch (mesh_.check(candidate.triangle)) {
+    case Verdict::crowded_edge:
+      return refuse(counts_.refused_edge);
+    case Verdict::broken_link:
+      return refuse(counts_.refused_link);
+    case Verdict::not_orientable:
+      return refuse(counts_.refused_orientation);
+    case Verdict::fits:
+      break;
+  }
+  mesh_.insert(candidate.triangle);
+  return true;
+}
+
+std::vector<Extractor::Candidate> Extractor::sweep_t12(std::vector<Candidate> waiting, bool bridging) {
+  bool entered = true;
+  while (entered) {
+    entered = false;
+    std::vector<Candidate> later;
+    for (const Candidate& candidate : waiting) {
+      if (!touches_enough(candidate.triangle, bridging)) {
+        later.push_back(candidate);
+      } else if (folds_back(candidate.triangle)) {
+        ++counts_.refused_fold;
+      } else if (try_insert(candidate)) {
+        ++counts_.t12_kept;
+        entered = true;
+      }
+    }
+    waiting.swap(later);
+  }
+  return waiting;
+}
+
+void Extractor::insert_candidates(const Candidates& candidates) {
+  std::vector<Candidate> t3, t12;
+  for (Index t = 0; t < candidates.triangles.rows(); ++t) {
+    const Triangle triangle{candidates.triangles(t, 0), candidates.triangles(t, 1), candidates.triangles(t, 2)};
+    (candidates.counts(t) == 3 ? t3 : t12)
+        .push_back({triangle, candidates.counts(t), circumradius(coordinates_, triangle)});
+  }
+  const auto better = [](const Candidate& a, const Candidate& b) { return a.rank() < b.rank(); };
+  std::sort(t3.begin(), t3.end(), better);
+  std::sort(t12.begin(), t12.end(), better);
+  counts_.t3 = static_cast<Index>(t3.size());
+  counts_.t12 = static_cast<Index>(t12.size());
+  for (const Candidate& candidate : t3) counts_.t3_kept += try_insert(candidate);
+  // Bridges come last: on thin parts they join what would be crumbs, elsewhere the surface is whole by then.
+  std::vector<Candidate> loose = sweep_t12(std::move(t12), false);
+  loose = sweep_t12(std::move(loose), true);
+  counts_.refused_loose = static_cast<Index>(loose.size());
+}
+
+ExtractedMesh Extractor::finish() {
+  const Index face_count = static_cast<Index>(mesh_.triangles().size());
+  std::vector<Index> size(static_cast<std::size_t>(face_count), 0);
+  std::vector<double> outward(size.size(), 0.0);  // how well the representative's orientation suits the normals
+  for (Index f = 0; f < face_count; ++f) {
+    const auto [representative, flipped] = mesh_.piece_of(f);
+    const double agreement = outwardness(mesh_.triangles()[f]);
+    outward[representative] += flipped ? -agreement : agreement;
+    ++size[representative];
+  }
+  // A mesh of few faces is no reason to drop all of it: the largest piece stays.
+  const Index largest = face_count == 0 ? 0 : *std::max_element(size.begin(), size.end());
+  const Index least = std::min(options_.min_component_faces, largest);
+  std::vector<Triangle> kept;
+  for (Index f = 0; f < face_count; ++f) {
+    const auto [representative, flipped] = mesh_.piece_of(f);
+    if (size[representative] < least) {
+      ++counts_.dropped_faces;
+      counts_.dropped_components += representative == f;
+      continue;
+    }
+    Triangle triangle = mesh_.triangles()[f];
+    if (flipped != (outward[representative] < 0)) std::swap(triangle[1], triangle[2]);
+    kept.push_back(triangle);
+  }
+  // They entered in the order of their radii, which rounding (a cloud in other units) may change.
+  std::sort(kept.begin(), kept.end());
+  ExtractedMesh extracted;
+  counts_.split_vertices = split_pinched_vertices(kept, coordinates_.rows(), extracted.faces, extracted.sources);
+  extracted.counts = counts_;
+  return extracted;
+}
+
+}  // namespace
+
+ExtractedMesh extract_manifold(const CoordinatesRef& coordinates, const PointsRef& normals,
+                               const Eigen::Ref<const Eigen::VectorXd>& disk_radii, const Candidates& candidates,
+                               const ExtractionOptions& options) {
+  require(coordinates.cols() >= 3 && coordinates.rows() == normals.rows() && normals.rows() == disk_radii.size(),
+          "coordinates must be (n, d >= 3), normals (n, 3) and radii (n)");
+  require(candidates.triangles.rows() == candidates.counts.size(), "each candidate needs a count");
+  require(options.max_fold > 0 && options.max_normal_angle > 0 && options.max_circumradius > 0,
+          "the limits of the extraction must be positive");
+  Extractor extractor(coordinates, normals, disk_radii, options);
+  extractor.insert_candidates(candidates);
+  return extractor.finish();
+}
+
+}  // namespace hdpea

@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hdpea_cpp/mesh/refinement.hpp"
+
+#include <Eigen/Dense>
+#include <Eigen/SparseCholesky>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "hdpea_cpp/base/errors.hpp"
+#include "hdpea_cpp/mesh/surface_distance.hpp"
+#include "hdpea_cpp/points/neighbors.hpp"
+
+namespace hdpea {
+namespace {
+
+using SparseMatrix = Eigen::SparseMatrix<double>;
+
+/// Normals of the faces times twice their areas.
+Points area_vectors(const Points& vertices, const FacesRef& faces) {
+  Points vectors(faces.rows(), 3);
+  for (Index f = 0; f < faces.rows(); ++f) {
+    const Eigen::RowVector3d a = vertices.row(faces(f, 0));
+    vectors.row(f) = (vertices.row(faces(f, 1)) - a).cross(vertices.row(faces(f, 2)) - a);
+  }
+  return vectors;
+}
+
+/// The least-squares system of one round: its matrix is summed face by face.
+struct NormalEquations {
+  SparseMatrix matrix;
+  Eigen::VectorXd right;
+};
+
+/// Tells whether a point belongs to the sheet that it was projected to.
+class Agreement {
+ public:
+  Agreement(const Points& vertices, const FacesRef& faces, double min_cosine)
+      : faces_(faces),
+        areas_(area_vectors(vertices, faces)),
+        faces_around_(static_cast<std::size_t>(vertices.rows())),
+        min_cosine_(min_cosine) {
+    for (Index f = 0; f < faces.rows(); ++f) {
+      for (Index v : faces.row(f)) faces_around_[v].push_back(f);
+    }
+  }
+
+  /// Asks every face that the foot lies on: those at an edge or a corner are equally close, and which of them
+  /// was found is a matter of rounding.
+  bool holds(const Eigen::RowVector3d& normal, Index face, const Eigen::RowVector3d& barycentric) const {
+    constexpr double nothing = 1e-9;
+    Index corner;
+    barycentric.maxCoeff(&corner);
+    for (Index f : faces_around_[faces_(face, corner)]) {
+      bool has_foot = true;
+      for (int i = 0; i < 3; ++i) {
+        has_foot = has_foot && (barycentric(i) < nothing || (faces_.row(f).array() == faces_(face, i)).any());
+      }
+      if (has_foot && normal.dot(areas_.row(f)) >= min_cosine_ * areas_.row(f).norm()) return true;
+    }
+    return false;
+  }
+
+ private:
+  const FacesRef& faces_;
+  Points areas_;
+  std::vector<std::vector<Index>> faces_around_;
+  double min_cosine_;
+};
+
+NormalEquations assemble(const Points& vertices, const FacesRef& faces, const PointsRef& points,
+                         const PointsRef& normals, const RefinementOptions& options) {
+  using Block = Eigen::Matrix<double, 9, 9>;
+  const SurfacePoints feet = closest_surface_points(vertices, faces, points);
+  const Agreement agreement(vertices, faces, options.min_cosine);
+  std::vector<Block, Eigen::aligned_allocator<Block>> blocks(static_cast<std::size_t>(faces.rows()), Block::Zero());
+  const double pull = options.pull * static_cast<double>(points.rows()) / static_cast<double>(vertices.rows());
+  NormalEquations system{SparseMatrix(vertices.size(), vertices.size()), pull * vertices.reshaped<Eigen::RowMajor>()};
+  for (Index p = 0; p < points.rows(); ++p) {
+    const Index f = feet.face(p);
+    if (!agreement.holds(normals.row(p), f, feet.barycentric.row(p))) continue;
+    Eigen::Matrix<double, 9, 1> row;
+    for (int i = 0; i < 3; ++i) row.segment<3>(3 * i) = feet.barycentric(p, i) * normals.row(p).transpose();
+    blocks[f].noalias() += row * row.transpose();
+    const double offset = normals.row(p).dot(points.row(p));
+    for (int i = 0; i < 3; ++i) system.right.segment<3>(3 * faces(f, i)) += offset * row.segment<3>(3 * i);
+  }
+  std::vector<Eigen::Triplet<double>> entries;
+  entries.reserve(static_cast<std::size_t>(45 * faces.rows() + vertices.size()));
+  for (Index i = 0; i < vertices.size(); ++i) entries.emplace_back(static_cast<int>(i), static_cast<int>(i), pull);
+  for (Index f = 0; f < faces.rows(); ++f) {
+    for (int i = 0; i < 9; ++i) {
+      for (int j = 0; j < 9; ++j) {
+        const Index row = 3 * faces(f, i / 3) + i % 3, column = 3 * faces(f, j / 3) + j % 3;
+        if (row >= column) entries.emplace_back(static_cast<int>(row), static_cast<int>(column), blocks[f](i, j));
+      }
+    }
+  }
+  system.matrix.setFromTriplets(entries.begin(), entries.end());
+  return system;
+}
+
+/// The size of the faces around each vertex, sqrt(2 area).
+Eigen::VectorXd sizes(const Points& vertices, const FacesRef& faces) {
+  const Points areas = area_vectors(vertices, faces);
+  Eigen::VectorXd sums = Eigen::VectorXd::Zero(vertices.rows()), counts = sums;
+  for (Index f = 0; f < faces.rows(); ++f) {
+    for (Index v : faces.row(f)) {
+      sums(v) += areas.row(f).norm();
+      counts(v) += 1;
+    }
+  }
+  return (sums.array() / counts.array().max(1)).sqrt();
+}
+
+Eigen::VectorXd distances(const PointsRef& points, const Points& vertices) {
+  const Neighbors nearest = nearest_neighbors(points, vertices, 1);
+  Eigen::VectorXd distances(vertices.rows());
+  for (Index v = 0; v < vertices.rows(); ++v) distances(v) = (points.row(nearest(v, 0)) - vertices.row(v)).norm();
+  return distances;
+}
+
+/// Halves the step of the vertices that leave the cloud: where few points hold one, least squares may send it far out
+/// along the planes of its faces. Farther than a gap between points, and than it was, is too far.
+void stay_near(const PointsRef& points, const Points& from, const Eigen::VectorXd& gap, Points& to) {
+  constexpr int halvings = 4;
+  const Eigen::VectorXd most = distances(points, from).cwiseMax(gap);
+  for (int round = 0; round < halvings; ++round) {
+    const Eigen::VectorXd found = distances(points, to);
+    for (Index v = 0; v < to.rows(); ++v) {
+      if (found(v) > most(v)) to.row(v) = (from.row(v) + to.row(v)) / 2;
+    }
+  }
+}
+
+/// Halves the step of the vertices of spoilt faces until there are none; after a few halvings they stay put.
+Points take_safe_step(const Points& from, const Points& to, const FacesRef& faces, const RefinementOptions& options) {
+  constexpr int halvings = 5;
+  const Points before = area_vectors(from, faces);
+  const double least_cosine = std::cos(options.max_turn * std::numbers::pi / 180);
+  Eigen::VectorXd step = Eigen::VectorXd::Ones(from.rows());
+  Points moved = to;
+  for (int round = 0;; ++round) {
+    const Points after = area_vectors(moved, faces);
+    bool spoilt = false;
+    for (Index f = 0; f < faces.rows(); ++f) {
+      const double old_area = before.row(f).norm(), new_area = after.row(f).norm();
+      const bool turned = before.row(f).dot(after.row(f)) < least_cosine * old_area * new_area;
+      if (!turned && new_area >= options.min_area * old_area) continue;
+      for (Index v : faces.row(f)) {
+        spoilt = spoilt || step(v) > 0;
+        step(v) = round < halvings ? step(v) / 2 : 0;
+      }
+    }
+    if (!spoilt) return moved;
+    moved = from + step.asDiagonal() * (to - from);
+  }
+}
+
+}  // namespace
+
+Points refine_vertices(const PointsRef& vertices, const FacesRef& faces, const PointsRef& points,
+                       const PointsRef& normals, const RefinementOptions& options, const Progress& progress) {
+  require(points.rows() == normals.rows(), "points and normals must have one row per point");
+  require(options.rounds >= 0 && options.pull > 0 && options.max_gap > 0,
+          "rounds must be 0 or more, pull and max_gap positive");
+  Points refined = vertices;
+  const Eigen::VectorXd gap = options.max_gap * sizes(refined, faces);
+  for (Index round = 0; round < options.rounds; ++round) {
+    report(progress, static_cast<double>(round) / static_cast<double>(options.rounds));
+    const NormalEquations system = assemble(refined, faces, points, normals, options);
+    const Eigen::SimplicialLDLT<SparseMatrix> factorization(system.matrix);
+    const Eigen::VectorXd solution = factorization.solve(system.right);
+    if (factorization.info() != Eigen::Success || !solution.allFinite()) {
+      throw CannotReconstruct("the refinement's sparse system has no solution");
+    }
+    Points fitted = Eigen::Map<const Points>(solution.data(), refined.rows(), 3);
+    stay_near(points, refined, gap, fitted);
+    refined = take_safe_step(refined, fitted, faces, options);
+  }
+  report(progress, 1);
+  return refined;
+}
+
+}  // namespace hdpea

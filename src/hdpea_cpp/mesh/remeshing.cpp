@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hdpea_cpp/mesh/remeshing.hpp"
+
+#include <CGAL/Polygon_mesh_processing/detect_features.h>
+#include <CGAL/Polygon_mesh_processing/orient_polygon_soup.h>
+#include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
+#include <CGAL/Polygon_mesh_processing/remesh.h>
+#include <CGAL/Polygon_mesh_processing/shape_predicates.h>
+#include <CGAL/boost/graph/Euler_operations.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <utility>
+#include <vector>
+
+#include "hdpea_cpp/base/errors.hpp"
+#include "hdpea_cpp/mesh/cgal_mesh.hpp"
+
+namespace hdpea {
+namespace {
+
+namespace pmp = CGAL::Polygon_mesh_processing;
+using Point = Kernel::Point_3;
+
+/// Of the edge length that is wanted: the ends of a shorter edge are told apart by nothing but rounding.
+constexpr double kNoLength = 1e-9;
+
+/// Whether no two faces run through an edge in the same direction, and none repeats a vertex. Of three faces at an
+/// edge two do, so this is edge-manifold as well.
+bool consistently_oriented(const FacesRef& faces) {
+  std::vector<std::pair<Index, Index>> edges;
+  for (Index f = 0; f < faces.rows(); ++f) {
+    for (int corner = 0; corner < 3; ++corner) edges.emplace_back(faces(f, corner), faces(f, (corner + 1) % 3));
+  }
+  std::sort(edges.begin(), edges.end());
+  return std::adjacent_find(edges.begin(), edges.end()) == edges.end() &&
+         std::none_of(edges.begin(), edges.end(), [](const auto& edge) { return edge.first == edge.second; });
+}
+
+SurfaceMesh to_cgal(const PointsRef& vertices, const FacesRef& faces) {
+  std::vector<Point> points;
+  for (Index v = 0; v < vertices.rows(); ++v) points.emplace_back(vertices(v, 0), vertices(v, 1), vertices(v, 2));
+  std::vector<std::array<std::size_t, 3>> triangles;
+  for (Index f = 0; f < faces.rows(); ++f) {
+    triangles.push_back({static_cast<std::size_t>(faces(f, 0)), static_cast<std::size_t>(faces(f, 1)),
+                         static_cast<std::size_t>(faces(f, 2))});
+  }
+  // A Surface_mesh has no pinched vertices: this gives each fan a vertex of its own. It turns no face, since all agree.
+  pmp::orient_polygon_soup(points, triangles);
+  SurfaceMesh mesh;
+  pmp::polygon_soup_to_polygon_mesh(points, triangles, mesh);
+  return mesh;
+}
+
+/// Joins vertices that only rounding tells apart. The needles between them have any normal, so they would stay, as
+/// sharp ones, and be split until a vertex has none but faces without area: there CGAL 5.5 crashes (its issue 7345).
+void collapse_edges_without_length(SurfaceMesh& mesh, double edge_length) {
+  const double least = kNoLength * edge_length;
+  for (const auto e : mesh.edges()) {
+    const auto h = mesh.halfedge(e);
+    const double squared = CGAL::squared_distance(mesh.point(mesh.source(h)), mesh.point(mesh.target(h)));
+    if (squared < least * least && CGAL::Euler::does_satisfy_link_condition(e, mesh)) {
+      CGAL::Euler::collapse_edge(e, mesh);
+    }
+  }
+  mesh.collect_garbage();
+}
+
+/// Marks the vertices at which the border turns by more than the angle: CGAL would cut such corners off.
+void mark_border_corners(const SurfaceMesh& mesh, double sharp_angle,
+                         SurfaceMesh::Property_map<SurfaceMesh::Vertex_index, bool>& corner) {
+  const double straight = std::cos(sharp_angle * std::numbers::pi / 180);
+  for (const auto h : mesh.halfedges()) {
+    if (!mesh.is_border(h)) continue;
+    const Point &from = mesh.point(mesh.source(h)), &at = mesh.point(mesh.target(h)),
+                &to = mesh.point(mesh.target(mesh.next(h)));
+    const double cosine = (at - from) * (to - at);
+    corner[mesh.target(h)] = cosine < straight * std::sqrt((at - from).squared_length() * (to - at).squared_length());
+  }
+}
+
+/// A face without area has no normal, so its edges are not sharp; as a patch of its own it would stop CGAL.
+void unmark_degenerate_faces(const SurfaceMesh& mesh, SurfaceMesh::Property_map<SurfaceMesh::Edge_index, bool>& sharp) {
+  for (const auto f : mesh.faces()) {
+    if (!pmp::is_degenerate_triangle_face(f, mesh)) continue;
+    for (const auto h : mesh.halfedges_around_face(mesh.halfedge(f))) sharp[mesh.edge(h)] = false;
+  }
+}
+
+}  // namespace
+
+TriangleMesh remesh_isotropically(const PointsRef& vertices, const FacesRef& faces, const RemeshingOptions& options) {
+  require(options.edge_length > 0, "edge_length must be positive");
+  require(vertices.allFinite(), "a coordinate is not finite");
+  require(faces.size() > 0 && faces.minCoeff() >= 0 && faces.maxCoeff() < vertices.rows(),
+          "remeshing needs faces, all of vertices that exist");
+  require(consistently_oriented(faces), "remeshing needs at most two faces to an edge, of one orientation");
+  SurfaceMesh mesh = to_cgal(vertices, faces);
+  collapse_edges_without_length(mesh, options.edge_length);
+  auto sharp = mesh.add_property_map<SurfaceMesh::Edge_index, bool>("e:sharp", false).first;
+  pmp::detect_sharp_edges(mesh, options.sharp_angle, sharp);
+  unmark_degenerate_faces(mesh, sharp);
+  auto corner = mesh.add_property_map<SurfaceMesh::Vertex_index, bool>("v:corner", false).first;
+  mark_border_corners(mesh, options.sharp_angle, corner);
+  pmp::isotropic_remeshing(mesh.faces(), options.edge_length, mesh,
+                           CGAL::parameters::number_of_iterations(static_cast<unsigned>(options.iterations))
+                               .number_of_relaxation_steps(3)
+                               .edge_is_constrained_map(sharp)
+                               .vertex_is_constrained_map(corner)
+                               .relax_constraints(false));
+  return from_cgal(mesh);
+}
+
+}  // namespace hdpea

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "hdpea_cpp/base/types.hpp"
+
+namespace hdpea {
+
+/// Gives normals one consistent orientation; their signs on entry do not matter.
+///
+/// Kruskal's spanning forest of the neighbour graph carries the orientation from point to point. Along an
+/// edge e, a normal is reflected in the plane that bisects the edge, n - 2 (n . e) e, as it is along a circular
+/// arc between the points: that is right across a sharp crease and a thin wall alike (Koenig & Gumhold 2009).
+/// Edges go first where the reflected normal and the neighbour's are most nearly parallel. Each connected
+/// piece then faces outwards at its extreme points.
+///
+/// @param points     (n, 3)
+/// @param normals    (n, 3) unit
+/// @param neighbors  (n, k), -1 pads
+Points orient_normals(const PointsRef& points, const PointsRef& normals, const NeighborsRef& neighbors);
+
+/// Lets the points of one sheet vote on its signs: each piece of the surface takes the sides that most of its normals
+/// have on entry.
+///
+/// A piece is what hangs together by edges along which normals are carried, as above, to within the angle of
+/// `least_cosine` of each other: across creases, but not between sheets that the points do not resolve, nor far
+/// through noise. Of equal votes, the side of the piece's first point wins.
+///
+/// @param points     (n, 3)
+/// @param normals    (n, 3) unit, mostly oriented
+/// @param neighbors  (n, k), -1 pads
+Points agree_on_signs(const PointsRef& points, const PointsRef& normals, const NeighborsRef& neighbors,
+                      double least_cosine = 0.9995);
+
+/// Share of neighbours whose signs agree by the same criterion: 1 for oriented normals, 0.5 for random signs.
+///
+/// Pairs whose reflected normals are not nearly parallel (|cos| <= 0.8) say nothing and are left out; 1 if
+/// there are no others.
+double orientation_consistency(const PointsRef& points, const PointsRef& normals, const NeighborsRef& neighbors);
+
+}  // namespace hdpea

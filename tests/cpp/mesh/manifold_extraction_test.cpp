@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hdpea_cpp/mesh/manifold_extraction.hpp"
+
+#include <gtest/gtest.h>
+
+#include <utility>
+#include <vector>
+
+#include "hdpea_cpp/base/errors.hpp"
+#include "hdpea_cpp/mesh/incremental_manifold.hpp"
+#include "hdpea_cpp/mesh/mesh_check.hpp"
+#include "hdpea_cpp/points/neighbors.hpp"
+#include "hdpea_cpp/points/tangent_basis.hpp"
+#include "helpers/clouds.hpp"
+
+namespace hdpea {
+namespace {
+
+ExtractedMesh mesh_of(const clouds::Cloud& cloud, double radius, const ExtractionOptions& options = {}) {
+  const Eigen::VectorXd radii = Eigen::VectorXd::Constant(cloud.points.rows(), radius);
+  const Candidates candidates = restricted_voronoi_candidates(cloud.points, tangent_bases_across(cloud.normals),
+                                                              nearest_neighbors(cloud.points, 40), radii);
+  return extract_manifold(cloud.points, cloud.normals, radii, candidates, options);
+}
+
+MeshCheck check_of(const ExtractedMesh& mesh, const clouds::Cloud& cloud) {
+  Points vertices(mesh.sources.size(), 3);
+  for (Index v = 0; v < vertices.rows(); ++v) vertices.row(v) = cloud.points.row(mesh.sources(v));
+  return check_mesh(vertices, mesh.faces);
+}
+
+TEST(ManifoldExtraction, MakesASphereClosedAndFacingOut) {
+  const auto sphere = clouds::sphere(1000);
+  const ExtractedMesh mesh = mesh_of(sphere, 0.3);
+  const MeshCheck check = check_of(mesh, sphere);
+  EXPECT_TRUE(check.manifold() && check.oriented() && check.closed());
+  EXPECT_EQ(check.euler_characteristic, 2);
+  for (Index f = 0; f < mesh.faces.rows(); ++f) {
+    const Eigen::RowVector3d a = sphere.points.row(mesh.faces(f, 0)), b = sphere.points.row(mesh.faces(f, 1)),
+                             c = sphere.points.row(mesh.faces(f, 2));
+    EXPECT_GT((b - a).cross(c - a).dot(a + b + c), 0);
+  }
+}
+
+TEST(ManifoldExtraction, KeepsTheBordersOfACylinderOpen) {
+  const auto cylinder = clouds::cylinder(2000, 0.5, 2);
+  const MeshCheck check = check_of(mesh_of(cylinder, 0.12), cylinder);
+  EXPECT_TRUE(check.manifold() && check.oriented());
+  EXPECT_EQ(check.components, 1);
+  EXPECT_EQ(check.euler_characteristic, 0);
+}
+
+TEST(ManifoldExtraction, TwoSheetsStayTwo) {
+  const auto sheets = clouds::joined(clouds::plane(1000), clouds::plane(1000, 0.1));
+  EXPECT_EQ(check_of(mesh_of(sheets, 0.06), sheets).components, 2);
+}
+
+TEST(ManifoldExtraction, DoesNotDependOnTheSignsOfTheNormals) {
+  auto sphere = clouds::sphere(800);
+  const Faces faces = mesh_of(sphere, 0.3).faces;
+  for (Index i = 0; i < 400; i += 3) sphere.normals.row(i) *= -1;  // fewer than half
+  EXPECT_EQ(mesh_of(sphere, 0.3).faces, faces);
+}
+
+TEST(ManifoldExtraction, DropsSmallPiecesButNotTheLargestAndSaysSo) {
+  auto small = clouds::sphere(100);
+  small.points.rowwise() += Eigen::RowVector3d(5, 0, 0);
+  ExtractionOptions options;
+  options.min_component_faces = 1'000'000;
+  const ExtractedMesh mesh = mesh_of(clouds::joined(clouds::sphere(500), small), 0.4, options);
+  EXPECT_EQ(mesh.faces.rows(), 2 * 500 - 4);
+  EXPECT_LT(mesh.sources.maxCoeff(), 500);
+  EXPECT_EQ(mesh.counts.dropped_components, 1);
+}
+
+TEST(ManifoldExtraction, StricterLimitsKeepFewerFaces) {
+  const auto sphere = clouds::sphere(500);
+  ExtractionOptions strict;
+  strict.max_circumradius = 0.07 / 0.4;
+  const ExtractedMesh all = mesh_of(sphere, 0.4), small = mesh_of(sphere, 0.4, strict);
+  EXPECT_LT(small.faces.rows(), all.faces.rows());
+  EXPECT_GT(small.counts.refused_size, 0);
+}
+
+/// What is made of triangles of a flat zigzag strip, 0 2 4 on one side and 1 3 5 on the other.
+ExtractedMesh mesh_of_strip(const std::vector<std::pair<Triangle, int>>& triangles_and_counts,
+                            const ExtractionOptions& options = {}) {
+  Points points(6, 3);
+  for (Index i = 0; i < 6; ++i) points.row(i) << 0.5 * static_cast<double>(i), i % 2 == 0 ? 0 : 0.9, 0;
+  const Index count = static_cast<Index>(triangles_and_counts.size());
+  Candidates candidates{Faces(count, 3), Eigen::VectorXi(count), {}};
+  for (Index t = 0; t < count; ++t) {
+    const auto& [triangle, cells] = triangles_and_counts[t];
+    candidates.triangles.row(t) << triangle[0], triangle[1], triangle[2];
+    candidates.counts(t) = cells;
+  }
+  return extract_manifold(points, Eigen::RowVector3d::UnitZ().replicate(6, 1), Eigen::VectorXd::Ones(6), candidates,
+                          options);
+}
+
+TEST(ManifoldExtraction, ABridgeJoinsTwoPieces) {
+  const ExtractedMesh mesh = mesh_of_strip({{{0, 1, 2}, 3}, {{1, 2, 3}, 1}, {{2, 3, 4}, 1}, {{3, 4, 5}, 3}});
+  EXPECT_EQ(mesh.faces.rows(), 4);
+  EXPECT_EQ(mesh.sources.size(), 6);  // nothing is pinched: they share edges
+}
+
+TEST(ManifoldExtraction, NoBridgeJoinsTwoLargePieces) {
+  ExtractionOptions options;
+  options.max_bridged_faces = 0;
+  options.min_component_faces = 1;
+  const ExtractedMesh mesh = mesh_of_strip({{{0, 1, 2}, 3}, {{1, 2, 3}, 1}, {{3, 4, 5}, 3}}, options);
+  EXPECT_EQ(mesh.counts.refused_loose, 1);
+}
+
+TEST(ManifoldExtraction, NoBridgeJoinsAPieceToItself) {
+  const ExtractedMesh mesh = mesh_of_strip({{{0, 1, 2}, 3}, {{1, 2, 3}, 3}, {{2, 3, 4}, 3}, {{0, 1, 4}, 1}});
+  EXPECT_EQ(mesh.counts.refused_loose, 1);
+  EXPECT_EQ(mesh.faces.rows(), 3);
+}
+
+TEST(ManifoldExtraction, AStrayPointWithAWideDiskDrawsNoSpike) {
+  Points points(4, 3);
+  points << 0, 0, 0, 1, 0, 0, 0.5, 1, 0, 0.5, 20, 0;
+  Candidates candidates{Faces(2, 3), Eigen::Vector2i(3, 3), {}};
+  candidates.triangles << 0, 1, 2, 1, 2, 3;
+  const Eigen::Vector4d disk_radii(1, 1, 1, 50);
+  const ExtractedMesh mesh =
+      extract_manifold(points, Eigen::RowVector3d::UnitZ().replicate(4, 1), disk_radii, candidates, {});
+  EXPECT_EQ(mesh.counts.refused_size, 1);
+  EXPECT_EQ(mesh.faces.rows(), 1);
+}
+
+TEST(ManifoldExtraction, AccountsForEveryCandidate) {
+  const ExtractionCounts c = mesh_of(clouds::cylinder(2000, 0.5, 2), 0.12).counts;
+  EXPECT_EQ(c.t3 + c.t12, c.t3_kept + c.t12_kept + c.refused_edge + c.refused_link + c.refused_orientation +
+                              c.refused_fold + c.refused_normal + c.refused_size + c.refused_loose);
+}
+
+TEST(ManifoldExtraction, RefusesLimitsThatAreNone) {
+  ExtractionOptions options;
+  options.max_fold = 0;
+  EXPECT_THROW(mesh_of(clouds::sphere(100), 0.5, options), InvalidArgument);
+}
+
+}  // namespace
+}  // namespace hdpea

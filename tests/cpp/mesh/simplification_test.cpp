@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hdpea_cpp/mesh/simplification.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <limits>
+
+#include "hdpea_cpp/base/errors.hpp"
+#include "hdpea_cpp/mesh/mesh_check.hpp"
+#include "hdpea_cpp/mesh/surface_distance.hpp"
+#include "helpers/shapes.hpp"
+
+namespace hdpea {
+namespace {
+
+SimplifiedMesh simplified(const shapes::Mesh& mesh, const MeshBudget& budget) {
+  return simplify_mesh(mesh.vertices, mesh.vertices, mesh.faces, budget, {});
+}
+
+double area(const SimplifiedMesh& mesh) {
+  double sum = 0;
+  for (Index f = 0; f < mesh.faces.rows(); ++f) {
+    const Eigen::RowVector3d a = mesh.vertices.row(mesh.faces(f, 0)), b = mesh.vertices.row(mesh.faces(f, 1)),
+                             c = mesh.vertices.row(mesh.faces(f, 2));
+    sum += (b - a).cross(c - a).norm() / 2;
+  }
+  return sum;
+}
+
+TEST(Simplification, MeetsTheBudgetAndKeepsTheTopology) {
+  const SimplifiedMesh torus = simplified(shapes::torus(60, 30), {.vertices = 300});
+  EXPECT_EQ(torus.vertices.rows(), 300);
+  EXPECT_EQ(torus.coordinates.rows(), 300);
+  const MeshCheck check = check_mesh(torus.vertices, torus.faces);
+  EXPECT_TRUE(check.manifold() && check.oriented());
+  EXPECT_EQ(check.boundary_loops, 0);
+  EXPECT_EQ(torus.vertices.rows() - torus.faces.rows() / 2, 0);
+}
+
+TEST(Simplification, StaysOnTheSurface) {
+  const auto torus = shapes::torus(60, 30);
+  const SimplifiedMesh small = simplified(torus, {.vertices = 300});
+  // Edges of 0.23 across a tube of radius 0.4 are 0.016 off.
+  EXPECT_LT(closest_surface_points(small.vertices, small.faces, torus.vertices).distance.maxCoeff(), 0.03);
+}
+
+TEST(Simplification, MeetsABudgetOfFaces) {
+  const SimplifiedMesh square = simplified(shapes::grid(20, 20), {.faces = 100});
+  EXPECT_LE(square.faces.rows(), 100);
+  EXPECT_GE(square.faces.rows(), 98);
+}
+
+TEST(Simplification, LeavesAMeshWithinTheBudgetAlone) {
+  const auto grid = shapes::grid(4, 4);
+  const SimplifiedMesh same = simplified(grid, {25, 32});
+  EXPECT_EQ(same.vertices, grid.vertices);
+  EXPECT_EQ(same.faces, grid.faces);
+}
+
+TEST(Simplification, KeepsTheBorderInPlace) {
+  const SimplifiedMesh square = simplified(shapes::grid(20, 20), {.vertices = 40});
+  EXPECT_NEAR(area(square), 1, 1e-3);
+  EXPECT_EQ(check_mesh(square.vertices, square.faces).boundary_loops, 1);
+}
+
+TEST(Simplification, GivesTheCentroidsOfTheParts) {
+  const SimplifiedMesh square = simplified(shapes::grid(20, 20), {.vertices = 100});
+  const double farthest = (square.coordinates - square.vertices).rowwise().norm().maxCoeff();
+  EXPECT_LT(farthest, 0.1);   // an edge
+  EXPECT_GT(farthest, 0.01);  // borders stay, the parts of their vertices lie inwards
+}
+
+TEST(Simplification, KeepsACrease) {
+  auto roof = shapes::grid(20, 20);
+  roof.vertices.col(2) = -(roof.vertices.col(0).array() - 0.5).abs();
+  const SimplifiedMesh small = simplified(roof, {.vertices = 60});
+  EXPECT_LT(closest_surface_points(small.vertices, small.faces, roof.vertices).distance.maxCoeff(), 2e-3);
+}
+
+TEST(Simplification, SpreadsWhatIsFlatEvenlyInTheEmbedding) {
+  const auto grid = shapes::grid(30, 30);
+  Coordinates stretched = grid.vertices;
+  stretched.col(0) *= 4;
+  const SimplifiedMesh small = simplify_mesh(grid.vertices, stretched, grid.faces, {.vertices = 100}, {});
+  Eigen::RowVector3d reach = Eigen::RowVector3d::Zero();
+  for (Index f = 0; f < small.faces.rows(); ++f) {
+    for (int i = 0; i < 3; ++i) {
+      reach += (small.vertices.row(small.faces(f, (i + 1) % 3)) - small.vertices.row(small.faces(f, i))).cwiseAbs();
+    }
+  }
+  EXPECT_GT(reach(1), 2 * reach(0));
+  EXPECT_LT(reach(1), 8 * reach(0));
+}
+
+TEST(Simplification, StopsWhereNothingCanBeCollapsed) {
+  const auto tetrahedron = shapes::tetrahedron();
+  EXPECT_EQ(simplified(tetrahedron, {.vertices = 3}).faces, tetrahedron.faces);
+}
+
+TEST(Simplification, RefusesBrokenInput) {
+  const MeshBudget ten{.vertices = 10};
+  auto grid = shapes::grid(4, 4);
+  EXPECT_THROW(simplify_mesh(grid.vertices, Coordinates(3, 8), grid.faces, ten, {}), InvalidArgument);
+  EXPECT_THROW(simplify_mesh(grid.vertices, grid.vertices, grid.faces, ten, {.evenness = -1}), InvalidArgument);
+  Faces outside = grid.faces;
+  outside(0, 0) = 25;
+  EXPECT_THROW(simplify_mesh(grid.vertices, grid.vertices, outside, ten, {}), InvalidArgument);
+  Faces turned = grid.faces;
+  turned.row(0) = turned.row(0).reverse().eval();
+  EXPECT_THROW(simplify_mesh(grid.vertices, grid.vertices, turned, ten, {}), InvalidArgument);
+  const auto bow_tie = shapes::make({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}}, {{0, 1, 2}, {0, 3, 4}});
+  EXPECT_THROW(simplified(bow_tie, {.vertices = 4}), InvalidArgument);
+  grid.vertices(0, 0) = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW(simplified(grid, ten), InvalidArgument);
+}
+
+TEST(Simplification, CanBeCancelledHalfway) {
+  const auto torus = shapes::torus(60, 30);
+  double seen = 0;
+  const auto stop_halfway = [&](double fraction) {
+    seen = fraction;
+    return fraction < 0.5;
+  };
+  EXPECT_THROW(simplify_mesh(torus.vertices, torus.vertices, torus.faces, {.faces = 601}, {}, stop_halfway), Cancelled);
+  EXPECT_LT(seen, 0.6);
+}
+
+}  // namespace
+}  // namespace hdpea

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hdpea_cpp/points/normal_orientation.hpp"
+
+#include <gtest/gtest.h>
+
+#include "hdpea_cpp/base/errors.hpp"
+#include "hdpea_cpp/points/neighbors.hpp"
+#include "helpers/clouds.hpp"
+
+namespace hdpea {
+namespace {
+
+Points with_random_signs(Points normals) {
+  for (Index i = 0; i < normals.rows(); ++i) {
+    if (clouds::weyl(i * i).x() < 0.5) normals.row(i) *= -1;
+  }
+  return normals;
+}
+
+/// Share of the points whose normal faces the way the true one does.
+double share_right(const Points& normals, const Points& truth) {
+  return ((normals.array() * truth.array()).rowwise().sum() > 0).cast<double>().mean();
+}
+
+class Orientation : public testing::TestWithParam<clouds::Cloud> {};
+
+TEST_P(Orientation, IsFoundWhateverTheSigns) {
+  const auto& [points, normals] = GetParam();
+  const Neighbors neighbors = nearest_neighbors(points, 16);
+  const Points oriented = orient_normals(points, with_random_signs(normals), neighbors);
+  EXPECT_EQ(share_right(oriented, normals), 1);
+  EXPECT_EQ(oriented, orient_normals(points, normals, neighbors));
+}
+
+TEST_P(Orientation, IsSeenToBeConsistentOrNot) {
+  const auto& [points, normals] = GetParam();
+  const Neighbors neighbors = nearest_neighbors(points, 16);
+  EXPECT_GT(orientation_consistency(points, normals, neighbors), 0.99);
+  EXPECT_NEAR(orientation_consistency(points, with_random_signs(normals), neighbors), 0.5, 0.1);
+}
+
+INSTANTIATE_TEST_SUITE_P(Shapes, Orientation,
+                         testing::Values(clouds::sphere(2000), clouds::cube(900), clouds::thin_plate()));
+
+TEST(NormalOrientation, OfAPieceIsThatOfItsMajority) {
+  const auto sheets = clouds::joined(clouds::plane(2000), clouds::flipped(clouds::plane(2000, 1)));
+  const Neighbors neighbors = nearest_neighbors(sheets.points, 16);
+  Points disturbed = sheets.normals;
+  for (Index i = 0; i < disturbed.rows(); ++i) {
+    if (sheets.points(i, 0) < 0.3) disturbed.row(i) *= -1;
+  }
+  EXPECT_EQ(agree_on_signs(sheets.points, disturbed, neighbors), sheets.normals);
+  EXPECT_EQ(agree_on_signs(sheets.points, -disturbed, neighbors), -sheets.normals);
+}
+
+TEST(NormalOrientation, OfPiecesThatAreSureOfNothingIsKept) {
+  const auto sphere = clouds::sphere(500);
+  const Neighbors neighbors = nearest_neighbors(sphere.points, 16);
+  const Points disturbed = with_random_signs(sphere.normals);
+  EXPECT_EQ(agree_on_signs(sphere.points, disturbed, neighbors, 1.1), disturbed);
+}
+
+TEST(NormalOrientation, RefusesArraysOfDifferentLengths) {
+  const auto sphere = clouds::sphere(50);
+  const Neighbors neighbors = nearest_neighbors(sphere.points, 4);
+  EXPECT_THROW(orient_normals(sphere.points, sphere.normals.topRows(3), neighbors), InvalidArgument);
+  EXPECT_THROW(agree_on_signs(sphere.points, sphere.normals.topRows(3), neighbors), InvalidArgument);
+  EXPECT_THROW(orientation_consistency(sphere.points, sphere.normals, neighbors.topRows(3)), InvalidArgument);
+}
+
+}  // namespace
+}  // namespace hdpea
