@@ -16,7 +16,8 @@ from helpers.made import assert_same_bytes, cloud_of, mesh_of, options
 from hdpea import reconstruct
 from hdpea.errors import CannotReconstruct, Interrupted, UnreadableInput, UsageError
 from hdpea.mesh.particles import Particles, spread_particles
-from hdpea.options import DenoisingOptions, MeshingOptions, Options
+from hdpea.options import DenoisingOptions, Length, MeshingOptions, Options
+from hdpea.reading.cloud import cleaned, from_arrays
 from hdpea.reconstruction import PHASES
 
 
@@ -178,3 +179,30 @@ def test_more_vertices_than_points_are_refused(budget: MeshingOptions) -> None:
 def test_what_holds_no_surface_is_refused(points: clouds.Array, error: type[Exception], reason: str) -> None:
     with pytest.raises(error, match=reason):
         reconstruct(points)
+
+
+def test_common_options_are_keywords_and_overrule_the_options() -> None:
+    points, normals = cloud_of("sphere")
+    made = reconstruct(points, normals, options(vertices=500, refine=False), vertices=200, seed=3, fill_holes="2%")
+    asked = made.report.options
+    assert (asked.meshing.vertices, asked.particles.seed, asked.meshing.fill_holes) == (200, 3, Length(2, percent=True))
+    assert not asked.refinement.refine
+    assert len(made.vertices) == 200
+
+
+def test_an_illegal_keyword_is_told_like_any_option() -> None:
+    points, normals = cloud_of("sphere")
+    with pytest.raises(UsageError, match="orient is one of"):
+        reconstruct(points, normals, orient="up")
+    with pytest.raises(UsageError, match="is not a length"):
+        reconstruct(points, normals, fill_holes="wide")
+
+
+def test_a_cloud_is_taken_as_it_was_read() -> None:
+    points, normals = cloud_of("torus")
+    given = cleaned(from_arrays(np.vstack([points, points[:5]]), np.vstack([normals, normals[:5]])))
+    made = reconstruct(given, options=options())
+    assert_same_bytes(made, mesh_of("torus"))
+    assert made.report.counts["dropped_duplicates"] == 5
+    with pytest.raises(UsageError, match="brings its own normals"):
+        reconstruct(given, normals)
