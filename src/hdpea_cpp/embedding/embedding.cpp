@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "hdpea_cpp/base/checks.hpp"
 #include "hdpea_cpp/base/cholesky.hpp"
 #include "hdpea_cpp/base/disjoint_sets.hpp"
 #include "hdpea_cpp/base/errors.hpp"
@@ -213,14 +214,22 @@ Coordinates solve_embedding(const PointsRef& points, const PointsRef& normals, c
                             const EmbeddingOptions& options, const Progress& progress,
                             const std::optional<Coordinates>& initial) {
   const Index n = points.rows();
-  require(normals.rows() == n && curvature.principal.rows() == n && curvature.direction1.rows() == n,
-          "points, normals and curvature must have one row per point");
-  require(weights.size() == triangles.rows(), "each triangle needs a weight");
-  require(triangles.size() == 0 || (triangles.minCoeff() >= 0 && triangles.maxCoeff() < n),
-          "a triangle refers to a point that does not exist");
-  require(options.metric_scale > 0 && options.max_stretch >= 1 && options.bending_length >= 0,
-          "metric_scale must be positive, max_stretch at least 1, bending_length at least 0");
-  require(!initial || (initial->rows() == n && initial->cols() == 5), "the initial psi must have five columns");
+  require(n >= 1, "solve_embedding needs at least one point");
+  require_finite(points, "points");
+  require_rows(normals, n, "normals");
+  require_finite(normals, "normals");
+  require_rows(curvature.principal, n, "principal curvatures");
+  require_finite(curvature.principal, "principal curvatures");
+  require_rows(curvature.direction1, n, "principal directions");
+  require_finite(curvature.direction1, "principal directions");
+  require_indices(triangles, 0, n, "triangles");
+  require_rows(weights, triangles.rows(), "weights");
+  require(weights.size() == 0 || (weights.allFinite() && weights.minCoeff() >= 0), "weights must be 0 or more");
+  require(options.metric_scale > 0 && options.max_stretch >= 1 && options.bending_length >= 0 &&
+              std::isfinite(options.bending_length) && options.iterations >= 0,
+          "metric_scale must be positive, max_stretch at least 1, bending_length and iterations at least 0");
+  require(!initial || (initial->rows() == n && initial->cols() == 5), "the initial psi must be (n, 5)");
+  if (initial) require_finite(*initial, "the initial psi");
 
   std::vector<Eigen::Matrix3d> excess(static_cast<std::size_t>(n));
   parallel_for(n, [&](Index i) { excess[i] = metric_excess(normals, curvature, i, options); });

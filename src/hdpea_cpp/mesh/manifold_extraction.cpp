@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "hdpea_cpp/base/checks.hpp"
 #include "hdpea_cpp/base/errors.hpp"
 #include "hdpea_cpp/mesh/incremental_manifold.hpp"
 #include "hdpea_cpp/mesh/mesh_pieces.hpp"
@@ -228,6 +229,16 @@ ExtractedMesh Extractor::finish() {
   return extracted;
 }
 
+void require_candidates(const Candidates& candidates, Index seeds) {
+  const Faces& triangles = candidates.triangles;
+  require_indices(triangles, 0, seeds, "candidate triangles");
+  require_rows(candidates.counts, triangles.rows(), "counts");
+  require_indices(candidates.counts.cast<Index>(), 1, 4, "counts");
+  require((triangles.col(0).array() < triangles.col(1).array()).all() &&
+              (triangles.col(1).array() < triangles.col(2).array()).all(),
+          "the corners of a candidate triangle must ascend");
+}
+
 }  // namespace
 
 ExtractedMesh extract_manifold(const CoordinatesRef& coordinates, const PointsRef& normals,
@@ -235,7 +246,10 @@ ExtractedMesh extract_manifold(const CoordinatesRef& coordinates, const PointsRe
                                const ExtractionOptions& options) {
   require(coordinates.cols() >= 3 && coordinates.rows() == normals.rows() && normals.rows() == disk_radii.size(),
           "coordinates must be (n, d >= 3), normals (n, 3) and radii (n)");
-  require(candidates.triangles.rows() == candidates.counts.size(), "each candidate needs a count");
+  require_finite(coordinates, "coordinates");
+  require_finite(normals, "normals");
+  require(disk_radii.allFinite() && (disk_radii.array() > 0).all(), "disk radii must be positive and finite");
+  require_candidates(candidates, coordinates.rows());
   require(options.max_fold > 0 && options.max_normal_angle > 0 && options.max_circumradius > 0,
           "the limits of the extraction must be positive");
   Extractor extractor(coordinates, normals, disk_radii, options);

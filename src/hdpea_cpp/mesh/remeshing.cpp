@@ -15,6 +15,7 @@
 #include <utility>
 #include <vector>
 
+#include "hdpea_cpp/base/checks.hpp"
 #include "hdpea_cpp/base/errors.hpp"
 #include "hdpea_cpp/mesh/cgal_mesh.hpp"
 
@@ -92,10 +93,9 @@ void unmark_degenerate_faces(const SurfaceMesh& mesh, SurfaceMesh::Property_map<
 }  // namespace
 
 TriangleMesh remesh_isotropically(const PointsRef& vertices, const FacesRef& faces, const RemeshingOptions& options) {
-  require(options.edge_length > 0, "edge_length must be positive");
-  require(vertices.allFinite(), "a coordinate is not finite");
-  require(faces.size() > 0 && faces.minCoeff() >= 0 && faces.maxCoeff() < vertices.rows(),
-          "remeshing needs faces, all of vertices that exist");
+  require(options.edge_length > 0 && std::isfinite(options.edge_length), "edge_length must be positive and finite");
+  require(faces.rows() >= 1, "remeshing needs at least one face");
+  require_mesh(vertices, faces);
   require(consistently_oriented(faces), "remeshing needs at most two faces to an edge, of one orientation");
   SurfaceMesh mesh = to_cgal(vertices, faces);
   collapse_edges_without_length(mesh, options.edge_length);

@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "hdpea_cpp/base/checks.hpp"
 #include "hdpea_cpp/base/errors.hpp"
 #include "hdpea_cpp/mesh/cgal_mesh.hpp"
 #include "hdpea_cpp/mesh/mesh_check.hpp"
@@ -177,8 +178,8 @@ SurfaceMesh to_cgal(const PointsRef& vertices, const FacesRef& faces) {
 
 SimplifiedMesh simplify_mesh(const PointsRef& vertices, const CoordinatesRef& coordinates, const FacesRef& faces,
                              const MeshBudget& budget, const SimplificationOptions& options, const Progress& progress) {
-  require(coordinates.rows() == vertices.rows(), "vertices and coordinates must have one row per vertex");
-  require(coordinates.allFinite(), "a coordinate is not finite");
+  require_rows(coordinates, vertices.rows(), "coordinates");
+  require_finite(coordinates, "coordinates");
   require(options.evenness >= 0 && options.border >= 0, "evenness and border must be 0 or more");
   const MeshCheck check = check_mesh(vertices, faces);
   require(check.manifold() && check.oriented(), "simplification needs a manifold, oriented mesh");

@@ -7,6 +7,7 @@
 #include <numeric>
 #include <tuple>
 
+#include "hdpea_cpp/base/checks.hpp"
 #include "hdpea_cpp/base/errors.hpp"
 #include "hdpea_cpp/base/parallel.hpp"
 
@@ -43,7 +44,7 @@ constexpr double one_over_4pi = 1 / (4 * std::numbers::pi);
 
 WindingTree::WindingTree(const PointsRef& points) : order_(static_cast<std::size_t>(points.rows())) {
   require(points.rows() >= 1, "a tree needs at least one point");
-  require(points.allFinite(), "a coordinate is not finite");
+  require_finite(points, "points");
   const Eigen::RowVector3d low = points.colwise().minCoeff();
   const double diagonal = (points.colwise().maxCoeff() - low).norm();
   size_ = diagonal > 0 ? diagonal : 1;
