@@ -55,18 +55,25 @@ SurfaceMesh to_cgal(const PointsRef& vertices, const FacesRef& faces) {
   return mesh;
 }
 
+bool has_no_length(const SurfaceMesh& mesh, SurfaceMesh::Edge_index e, double edge_length) {
+  const auto h = mesh.halfedge(e);
+  const double least = kNoLength * edge_length;
+  return CGAL::squared_distance(mesh.point(mesh.source(h)), mesh.point(mesh.target(h))) < least * least;
+}
+
 /// Joins vertices that only rounding tells apart. The needles between them have any normal, so they would stay, as
 /// sharp ones, and be split until a vertex has none but faces without area: there CGAL 5.5 crashes (its issue 7345).
 void collapse_edges_without_length(SurfaceMesh& mesh, double edge_length) {
-  const double least = kNoLength * edge_length;
   for (const auto e : mesh.edges()) {
-    const auto h = mesh.halfedge(e);
-    const double squared = CGAL::squared_distance(mesh.point(mesh.source(h)), mesh.point(mesh.target(h)));
-    if (squared < least * least && CGAL::Euler::does_satisfy_link_condition(e, mesh)) {
+    if (has_no_length(mesh, e, edge_length) && CGAL::Euler::does_satisfy_link_condition(e, mesh)) {
       CGAL::Euler::collapse_edge(e, mesh);
     }
   }
   mesh.collect_garbage();
+  const auto edges = mesh.edges();
+  if (std::any_of(edges.begin(), edges.end(), [&](auto e) { return has_no_length(mesh, e, edge_length); })) {
+    throw CannotReconstruct("vertices of the mesh that lie in one place cannot be joined without a hole");
+  }
 }
 
 /// Marks the vertices at which the border turns by more than the angle: CGAL would cut such corners off.

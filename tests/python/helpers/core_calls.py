@@ -112,11 +112,10 @@ CALLS: dict[str, tuple[Callable[..., Any], Arguments]] = {
 }
 
 
-
-def broken(name: str, value: Any) -> Iterator[tuple[Any, bool]]:
+def broken(value: Any) -> Iterator[tuple[Any, bool]]:
     """Yield broken versions of an argument, and whether each must be refused."""
     if not isinstance(value, np.ndarray):
-        yield -1 if isinstance(value, int) else -1.0, True
+        yield -2 if isinstance(value, int) else -2.0, True
         return
     yield value[:0], False
     yield value[:, ::-1] if value.ndim == 2 else value[::-1], False  # not contiguous
@@ -135,7 +134,7 @@ def broken(name: str, value: Any) -> Iterator[tuple[Any, bool]]:
         yield spoilt, True
 
 
-def fewer(name: str, value: Any) -> Iterator[Any]:
+def resized(value: Any) -> Iterator[Any]:
     """Yield arrays of another number of rows."""
     if isinstance(value, np.ndarray):
         yield value[:-1]
@@ -158,13 +157,13 @@ def main(name: str) -> int:
         raise AssertionError(f"the legal call of {name} is refused")
     count = 0
     for each, value in arguments.items():
-        for spoilt, must_refuse in broken(each, value):
+        for spoilt, must_refuse in broken(value):
             was_refused = refused(call, arguments | {each: spoilt})
             if must_refuse and not was_refused:
                 raise AssertionError(f"{name} accepts a broken {each}: {spoilt!r}")
             count += was_refused
-        for resized in fewer(each, value):
-            refused(call, arguments | {each: resized})
+        for other in resized(value):
+            refused(call, arguments | {each: other})
     empty = {each: value[:0] if isinstance(value, np.ndarray) else value for each, value in arguments.items()}
     refused(call, empty)
     return count
