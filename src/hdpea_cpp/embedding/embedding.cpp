@@ -52,10 +52,11 @@ Eigen::Matrix3d metric_excess(const PointsRef& normals, const Curvature& curvatu
   return excess1 * direction1 * direction1.transpose() + excess2 * direction2 * direction2.transpose();
 }
 
-class Solver {
+/// The triangles as finite elements: the Laplacian and the local step of the iteration.
+class Elements {
  public:
-  Solver(const PointsRef& points, const FacesRef& triangles, const Eigen::Ref<const Eigen::VectorXd>& weights,
-         const std::vector<Eigen::Matrix3d>& excess_of_points)
+  Elements(const PointsRef& points, const FacesRef& triangles, const Eigen::Ref<const Eigen::VectorXd>& weights,
+           const std::vector<Eigen::Matrix3d>& excess_of_points)
       : triangles_(triangles), elements_(static_cast<std::size_t>(triangles.rows())) {
     parallel_for(triangles.rows(),
                  [&](Index t) { elements_[t] = make_element(points, t, weights(t), excess_of_points); });
@@ -233,15 +234,15 @@ Coordinates solve_embedding(const PointsRef& points, const PointsRef& normals, c
 
   std::vector<Eigen::Matrix3d> excess(static_cast<std::size_t>(n));
   parallel_for(n, [&](Index i) { excess[i] = metric_excess(normals, curvature, i, options); });
-  Solver solver(points, triangles, weights, excess);
+  Elements elements(points, triangles, weights, excess);
 
   // Points in no triangle get a little area of their own; a little of A makes L definite, however much the
   // slivers between nearly equal points weigh. It slows psi's convergence by its ratio to L's eigenvalues, which
   // are tens, and does not move what psi converges to.
-  const double mean_area = std::max(solver.areas().mean(), 1e-300);
-  const Eigen::VectorXd areas = solver.areas().cwiseMax(1e-3 * mean_area);
+  const double mean_area = std::max(elements.areas().mean(), 1e-300);
+  const Eigen::VectorXd areas = elements.areas().cwiseMax(1e-3 * mean_area);
   const double anchor = 1e-3 / (points.colwise().maxCoeff() - points.colwise().minCoeff()).squaredNorm();
-  const SparseMatrix laplacian = solver.laplacian();
+  const SparseMatrix laplacian = elements.laplacian();
   const double squared_length = options.bending_length * options.bending_length;
   const Cholesky bending(squared_length * laplacian + diagonal(areas));
   const Cholesky poisson(laplacian + anchor * diagonal(areas));
@@ -251,7 +252,7 @@ Coordinates solve_embedding(const PointsRef& points, const PointsRef& normals, c
   const PinnedMeans pinned_means(triangles, areas, psi);
   for (Index iteration = 0; iteration < options.iterations; ++iteration) {
     report(progress, static_cast<double>(iteration) / static_cast<double>(options.iterations));
-    solver.divergence_of_frames(ahead, next);
+    elements.divergence_of_frames(ahead, next);
     bending.solve_in_place(next);
     next = areas.asDiagonal() * (next + anchor * ahead);
     poisson.solve_in_place(next);

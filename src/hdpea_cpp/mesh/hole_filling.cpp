@@ -11,6 +11,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "hdpea_cpp/base/area_vector.hpp"
 #include "hdpea_cpp/base/checks.hpp"
 #include "hdpea_cpp/base/disjoint_sets.hpp"
 #include "hdpea_cpp/base/errors.hpp"
@@ -159,8 +160,7 @@ class HoleFiller {
   }
 
   Eigen::RowVector3d area_vector(Index a, Index b, Index c) const {
-    const Eigen::RowVector3d origin = vertices_.row(a);
-    return (vertices_.row(b) - origin).cross(vertices_.row(c) - origin);
+    return hdpea::area_vector(vertices_.row(a), vertices_.row(b), vertices_.row(c));
   }
 
   std::vector<PatchFace> triangulated(const Loop& loop) const {

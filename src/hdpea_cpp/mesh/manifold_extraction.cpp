@@ -10,10 +10,11 @@
 #include <utility>
 #include <vector>
 
+#include "hdpea_cpp/base/area_vector.hpp"
 #include "hdpea_cpp/base/checks.hpp"
 #include "hdpea_cpp/base/errors.hpp"
 #include "hdpea_cpp/mesh/incremental_manifold.hpp"
-#include "hdpea_cpp/mesh/mesh_pieces.hpp"
+#include "hdpea_cpp/mesh/pinched_vertices.hpp"
 
 namespace hdpea {
 namespace {
@@ -59,7 +60,7 @@ class Extractor {
   Eigen::Vector3d position(Index i) const { return coordinates_.row(i).head<3>().transpose(); }
   /// The normal of the ascending triangle, of twice its area's length.
   Eigen::Vector3d area_vector(const Triangle& t) const {
-    return (position(t[1]) - position(t[0])).cross(position(t[2]) - position(t[0]));
+    return hdpea::area_vector(position(t[0]), position(t[1]), position(t[2]));
   }
   /// Positive if the ascending triangle faces the way its points' normals do, times its area.
   double outwardness(const Triangle& t) const {
@@ -76,7 +77,7 @@ class Extractor {
   bool joins_pieces(Index face, Index vertex);
   /// Counts what is refused for good; returns whether the triangle went in.
   bool try_insert(const Candidate& candidate);
-  /// Inserts what touches the mesh by enough edges, until nothing more does; returns what is left.
+  /// Inserts what touches the mesh by enough edges, until nothing more does; returns what did not enter.
   std::vector<Candidate> sweep_t12(std::vector<Candidate> waiting, bool bridging);
 
   const CoordinatesRef& coordinates_;

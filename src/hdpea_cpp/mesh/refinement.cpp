@@ -7,22 +7,21 @@
 #include <numbers>
 #include <vector>
 
+#include "hdpea_cpp/base/area_vector.hpp"
 #include "hdpea_cpp/base/checks.hpp"
 #include "hdpea_cpp/base/errors.hpp"
+#include "hdpea_cpp/base/sparse.hpp"
 #include "hdpea_cpp/mesh/surface_distance.hpp"
 #include "hdpea_cpp/points/neighbors.hpp"
 
 namespace hdpea {
 namespace {
 
-using SparseMatrix = Eigen::SparseMatrix<double>;
-
 /// Normals of the faces times twice their areas.
 Points area_vectors(const Points& vertices, const FacesRef& faces) {
   Points vectors(faces.rows(), 3);
   for (Index f = 0; f < faces.rows(); ++f) {
-    const Eigen::RowVector3d a = vertices.row(faces(f, 0));
-    vectors.row(f) = (vertices.row(faces(f, 1)) - a).cross(vertices.row(faces(f, 2)) - a);
+    vectors.row(f) = area_vector(vertices.row(faces(f, 0)), vertices.row(faces(f, 1)), vertices.row(faces(f, 2)));
   }
   return vectors;
 }

@@ -2,14 +2,11 @@
 #include "hdpea_cpp/mesh/remeshing.hpp"
 
 #include <CGAL/Polygon_mesh_processing/detect_features.h>
-#include <CGAL/Polygon_mesh_processing/orient_polygon_soup.h>
-#include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
 #include <CGAL/Polygon_mesh_processing/remesh.h>
 #include <CGAL/Polygon_mesh_processing/shape_predicates.h>
 #include <CGAL/boost/graph/Euler_operations.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -38,21 +35,6 @@ bool consistently_oriented(const FacesRef& faces) {
   std::sort(edges.begin(), edges.end());
   return std::adjacent_find(edges.begin(), edges.end()) == edges.end() &&
          std::none_of(edges.begin(), edges.end(), [](const auto& edge) { return edge.first == edge.second; });
-}
-
-SurfaceMesh to_cgal(const PointsRef& vertices, const FacesRef& faces) {
-  std::vector<Point> points;
-  for (Index v = 0; v < vertices.rows(); ++v) points.emplace_back(vertices(v, 0), vertices(v, 1), vertices(v, 2));
-  std::vector<std::array<std::size_t, 3>> triangles;
-  for (Index f = 0; f < faces.rows(); ++f) {
-    triangles.push_back({static_cast<std::size_t>(faces(f, 0)), static_cast<std::size_t>(faces(f, 1)),
-                         static_cast<std::size_t>(faces(f, 2))});
-  }
-  // A Surface_mesh has no pinched vertices: this gives each fan a vertex of its own. It turns no face, since all agree.
-  pmp::orient_polygon_soup(points, triangles);
-  SurfaceMesh mesh;
-  pmp::polygon_soup_to_polygon_mesh(points, triangles, mesh);
-  return mesh;
 }
 
 bool has_no_length(const SurfaceMesh& mesh, SurfaceMesh::Edge_index e, double edge_length) {

@@ -16,7 +16,7 @@ namespace {
 
 using Triple = std::array<Index, 3>;
 constexpr Index kDisk = -1;       // label of an edge that lies on the disk's rim
-constexpr int kDiskCorners = 10;  // paper, section C
+constexpr int kDiskCorners = 10;  // HD-PEA, section C
 
 /// A corner of a cell, and the bisector (or the rim) on which the edge that starts there lies.
 struct Corner {

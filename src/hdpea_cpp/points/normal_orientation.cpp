@@ -94,7 +94,7 @@ Points orient_normals(const PointsRef& points, const PointsRef& normals, const N
 Points agree_on_signs(const PointsRef& points, const PointsRef& normals, const NeighborsRef& neighbors,
                       double least_cosine) {
   const Index n = points.rows();
-  require(least_cosine >= -1 && least_cosine <= 1, "the least cosine must lie in [-1, 1]");
+  require(least_cosine >= -1, "the least cosine must be at least -1");
   require_neighborhoods(points, normals, neighbors);
   SignedSets pieces(n);
   for (const Edge& edge : sorted_edges(points, normals, neighbors)) {

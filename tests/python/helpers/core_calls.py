@@ -51,7 +51,7 @@ def _remesh(vertices: NDArray[np.float64], faces: NDArray[np.int64]) -> None:
 
 
 def _simplify(**arrays: Any) -> None:
-    _core.simplify_mesh(budget=_core.MeshBudget(), options=_core.SimplificationOptions(), **arrays)
+    _core.simplify_mesh(budget=_core.MeshBudget(), **arrays)
 
 
 CALLS: dict[str, tuple[Callable[..., Any], Arguments]] = {
