@@ -38,8 +38,8 @@ from hdpea.curvature.tensors import metric_tensors
 from hdpea.dataset.ground_truth import embed_mesh
 from hdpea.dataset.options import GroundTruthOptions, SamplingOptions
 from hdpea.embedding import EMBEDDERS
-from hdpea.embedding.embedded import Metric
 from hdpea.errors import HdpeaError
+from hdpea.geometry.metric import Metric
 from hdpea.geometry.sampling import sample_surface
 from hdpea.geometry.triangles import mesh_area
 from hdpea.options import EmbeddingOptions, NormalOptions

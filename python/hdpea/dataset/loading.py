@@ -13,6 +13,7 @@ from hdpea.dataset.recorded_options import options_recorded
 from hdpea.dataset.sample import Sample
 from hdpea.dataset.sample_file import decoded
 from hdpea.errors import UnreadableInput, UsageError
+from hdpea.geometry.metric import ScaledMetric
 from hdpea.reading import read_bytes
 
 
@@ -40,6 +41,11 @@ class Dataset:
     def names(self) -> list[str]:
         """The names of the samples, in the order of the manifest."""
         return list(self._entries)
+
+    @property
+    def metric(self) -> ScaledMetric:
+        """The metric of the ground truth, in spacings, as the manifest records it."""
+        return options_recorded(self.manifest.options).ground_truth.metric
 
     def __len__(self) -> int:
         return len(self._entries)
