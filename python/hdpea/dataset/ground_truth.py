@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hdpea import _core
-from hdpea.dataset.options import GroundTruthOptions, SamplingOptions
+from hdpea.dataset.options import GroundTruthOptions
 from hdpea.errors import CannotReconstruct, core_errors_translated
 from hdpea.geometry.sampling import sample_surface
 from hdpea.geometry.triangles import area_vectors, mesh_area
@@ -135,7 +135,7 @@ def _curvature_at(
     radius: float,
 ) -> _core.Curvature:
     """Fit the curvature at `vertices` to samples of the given mesh, whose normals are true ones."""
-    samples = sample_surface(given, faces, SamplingOptions(points=CURVATURE_SAMPLES))
+    samples = sample_surface(given, faces, CURVATURE_SAMPLES)
     points = np.vstack([vertices, samples.points])
     all_normals = np.vstack([normals, samples.normals])
     nearest = len(vertices) + _core.nearest_neighbors(samples.points, vertices, CURVATURE_NEIGHBORS)

@@ -60,5 +60,5 @@ def draw_points(
     if options.sample.kind == "scan":
         scan = scan_surface(vertices, faces, replace(options.scanning, seed=seed))
         return scan.points, scan.surface_points, scan.normals, scan.sensors
-    drawn = sample_surface(vertices, faces, replace(options.sampling, method=options.sample.kind, seed=seed))
+    drawn = sample_surface(vertices, faces, options.sampling.points, method=options.sample.kind, seed=seed)
     return drawn.points, drawn.points, drawn.normals, None

@@ -20,7 +20,8 @@ from hdpea.evaluation.scores import (
     TriangleScores,
 )
 from hdpea.evaluation.triangle_shapes import triangle_angles
-from hdpea.evaluation.truth import Truth, draw, seeds
+from hdpea.evaluation.truth import Truth, seeds
+from hdpea.geometry.sampling import sample_surface
 
 Rows = NDArray[np.float64]
 
@@ -42,7 +43,7 @@ def evaluate(vertices_in_world: Rows, faces: NDArray[np.int64], truth: Truth) ->
     """
     vertices = truth.from_world(vertices_in_world)
     with core_errors_translated():
-        samples = draw((vertices, faces), truth.options.samples, seeds(truth.options)[-1])
+        samples = sample_surface(vertices, faces, truth.options.samples, seed=seeds(truth.options)[-1])
         between = distances_between(truth.points, truth.normals, samples.points, samples.normals)
         corners = truth.points[:0] if truth.surface is None else truth.surface[0]
         to_result = distances_to_surface(truth.points, corners, vertices, faces)
