@@ -15,7 +15,7 @@ from pathlib import Path
 import click
 import numpy as np
 
-from hdpea.dataset.sources import find_meshes
+from hdpea.dataset.discovery import find_meshes
 from hdpea.dataset.surface_file import read_surface
 from hdpea.geometry.sampling import sample_surface
 from hdpea.geometry.unit_frame import UnitFrame

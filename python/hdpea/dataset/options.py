@@ -98,7 +98,7 @@ class SampleOptions(Checked):
 
 @dataclass(frozen=True)
 class DatasetOptions(Checked):
-    """Everything ``hdpea.dataset.building.build_dataset`` can be told; the manifest holds all but the run's own."""
+    """Everything ``hdpea.dataset.build.build_dataset`` can be told; the manifest holds all but the run's own."""
 
     sample: SampleOptions = SampleOptions()
     sampling: SamplingOptions = SamplingOptions()

@@ -95,7 +95,7 @@ def _uniform_by_area(
     _, distinct = np.unique(np.sort(faces, axis=1), axis=0, return_index=True)
     candidates = np.sort(distinct[areas[distinct] > 0])
     if not len(candidates):
-        raise CannotReconstruct("The mesh has no area.", "Points can be drawn only from faces that are more than lines.")
+        raise CannotReconstruct("The mesh has no area.", "Points are drawn only from faces that are more than lines.")
     upto = np.cumsum(areas[candidates])
     drawn = np.searchsorted(upto, rng.random(count) * upto[-1])
     chosen = candidates[np.minimum(drawn, len(candidates) - 1)]  # rounding may step past the last

@@ -8,8 +8,8 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from hdpea.dataset.estimation import estimated_normals
 from hdpea.dataset.ground_truth import embed_mesh
+from hdpea.dataset.normal_estimation import estimated_normals
 from hdpea.dataset.options import DatasetOptions
 from hdpea.dataset.sample import Sample
 from hdpea.dataset.scanning import scan_surface
