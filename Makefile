@@ -120,8 +120,17 @@ format: $(VENV)/.dependencies
 core: debian
 	cmake --workflow --preset default
 
-sanitize: debian
+# The tests of the core, and then its Python functions fed what breaks their contracts.
+SANITIZED := build/sanitize/python
+sanitize: debian $(VENV)/.dependencies
 	cmake --workflow --preset sanitize
+	cmake build/sanitize -DHDPEA_BUILD_PYTHON=ON -DPython_EXECUTABLE=$(abspath $(BIN))/python >/dev/null
+	cmake --build build/sanitize --target _core
+	@mkdir -p $(SANITIZED)
+	cp -r python/hdpea build/sanitize/src/bindings/_core*.so $(SANITIZED)
+	mv $(SANITIZED)/_core*.so $(SANITIZED)/hdpea
+	LD_PRELOAD="$$(g++ -print-file-name=libasan.so) $$(g++ -print-file-name=libubsan.so)" \
+	  ASAN_OPTIONS=detect_leaks=0 PYTHONPATH=$(SANITIZED) $(BIN)/pytest tests/python/core
 
 pytest: setup
 	$(BIN)/pytest

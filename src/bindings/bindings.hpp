@@ -7,6 +7,39 @@
 #include <nanobind/stl/function.h>
 #include <nanobind/stl/string.h>
 
+#include "hdpea_cpp/base/types.hpp"
+
+namespace nanobind::detail {
+
+/// A progress callback of Python: None goes on, as a function without a return statement gives it, and whatever else it
+/// returns counts by its truth. nanobind's own caster takes nothing but True and False.
+template <>
+struct type_caster<hdpea::Progress> {
+  NB_TYPE_CASTER(hdpea::Progress, const_name("collections.abc.Callable[[float], object]"))
+
+  struct Callback : pyfunc_wrapper {
+    using pyfunc_wrapper::pyfunc_wrapper;
+    bool operator()(double fraction) const {
+      gil_scoped_acquire acquired;
+      const object answer = handle(f)(fraction);
+      const int truth = answer.is_none() ? 1 : PyObject_IsTrue(answer.ptr());
+      if (truth < 0) raise_python_error();
+      return truth != 0;
+    }
+  };
+
+  bool from_python(handle source, uint32_t flags, cleanup_list*) noexcept {
+    if (source.is_none()) return flags & cast_flags::convert;
+    if (!PyCallable_Check(source.ptr())) return false;
+    value = Callback(source.ptr());
+    return true;
+  }
+
+  static handle from_cpp(const hdpea::Progress&, rv_policy, cleanup_list*) noexcept { return none().release(); }
+};
+
+}  // namespace nanobind::detail
+
 namespace nb = nanobind;
 using namespace nb::literals;
 

@@ -28,9 +28,7 @@ def simplify_mesh(mesh: Mesh, options: MeshingOptions, progress: Callable[[float
     if options.faces is not None:
         budget.faces = options.faces
     with core_errors_translated():
-        small = _core.simplify_mesh(
-            mesh.vertices_in_unit, mesh.coordinates, mesh.faces, budget, _core.SimplificationOptions(), progress
-        )
+        small = _core.simplify_mesh(mesh.vertices_in_unit, mesh.coordinates, mesh.faces, budget, progress)
     collapsed = len(mesh.vertices_in_unit) - len(small.vertices)
     return replace(
         mesh,

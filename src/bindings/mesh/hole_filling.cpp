@@ -11,5 +11,5 @@ void register_hole_filling(nb::module_& module) {
       .def_ro("filled", &FilledMesh::filled)
       .def_ro("left", &FilledMesh::left);
   module.def("fill_holes", &hdpea::fill_holes, "vertices"_a, "faces"_a, "max_size"_a, "progress"_a = nb::none(),
-             ReleaseGil(), "Fill boundary loops whose bounding box's diagonal is at most max_size.");
+             ReleaseGil(), "Fill holes whose size, 4 area / perimeter of the patch, is at most max_size.");
 }

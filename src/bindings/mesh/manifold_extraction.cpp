@@ -9,9 +9,6 @@ void register_manifold_extraction(nb::module_& module) {
   using hdpea::ExtractionOptions;
   nb::class_<ExtractionOptions>(module, "ExtractionOptions", "What is refused; angles in degrees.")
       .def(nb::init<>())
-      .def_rw("max_fold", &ExtractionOptions::max_fold)
-      .def_rw("max_normal_angle", &ExtractionOptions::max_normal_angle)
-      .def_rw("max_circumradius", &ExtractionOptions::max_circumradius)
       .def_rw("min_component_faces", &ExtractionOptions::min_component_faces);
   nb::class_<ExtractionCounts>(module, "ExtractionCounts", "What became of the candidates.")
       .def_ro("t3", &ExtractionCounts::t3)

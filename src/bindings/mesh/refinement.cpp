@@ -7,11 +7,7 @@ void register_refinement(nb::module_& module) {
   using hdpea::RefinementOptions;
   nb::class_<RefinementOptions>(module, "RefinementOptions", "How a mesh is fitted to a cloud.")
       .def(nb::init<>())
-      .def_rw("rounds", &RefinementOptions::rounds)
-      .def_rw("pull", &RefinementOptions::pull)
-      .def_rw("min_cosine", &RefinementOptions::min_cosine)
-      .def_rw("max_turn", &RefinementOptions::max_turn)
-      .def_rw("min_area", &RefinementOptions::min_area);
+      .def_rw("rounds", &RefinementOptions::rounds);
   module.def("refine_vertices", &hdpea::refine_vertices, "vertices"_a, "faces"_a, "points"_a, "normals"_a, "options"_a,
              "progress"_a = nb::none(), ReleaseGil(),
              "Move the vertices so that the faces run through the cloud, by least squares.");

@@ -4,20 +4,22 @@
 #include "bindings/bindings.hpp"
 
 void register_simplification(nb::module_& module) {
-  using hdpea::MeshBudget, hdpea::SimplificationOptions, hdpea::SimplifiedMesh;
+  using hdpea::MeshBudget, hdpea::SimplifiedMesh;
   nb::class_<MeshBudget>(module, "MeshBudget", "No more vertices and no more faces than these.")
       .def(nb::init<>())
       .def_rw("vertices", &MeshBudget::vertices)
       .def_rw("faces", &MeshBudget::faces);
-  nb::class_<SimplificationOptions>(module, "SimplificationOptions", "What an edge collapse costs.")
-      .def(nb::init<>())
-      .def_rw("evenness", &SimplificationOptions::evenness)
-      .def_rw("border", &SimplificationOptions::border);
   nb::class_<SimplifiedMesh>(module, "SimplifiedMesh", "A mesh whose edges were collapsed.")
       .def_ro("vertices", &SimplifiedMesh::vertices, "(v, 3) float64")
       .def_ro("coordinates", &SimplifiedMesh::coordinates, "(v, d) float64: the centroids of what they stand for")
       .def_ro("faces", &SimplifiedMesh::faces, "(f, 3) int64");
-  module.def("simplify_mesh", &hdpea::simplify_mesh, "vertices"_a, "coordinates"_a, "faces"_a, "budget"_a, "options"_a,
-             "progress"_a = nb::none(), ReleaseGil(),
-             "Collapse edges, the least loss first, until a mesh is small enough.");
+  // The options are for the core's own tests: nobody sets them from Python.
+  module.def(
+      "simplify_mesh",
+      [](const hdpea::PointsRef& vertices, const hdpea::CoordinatesRef& coordinates, const hdpea::FacesRef& faces,
+         const MeshBudget& budget, const hdpea::Progress& progress) {
+        return hdpea::simplify_mesh(vertices, coordinates, faces, budget, {}, progress);
+      },
+      "vertices"_a, "coordinates"_a, "faces"_a, "budget"_a, "progress"_a = nb::none(), ReleaseGil(),
+      "Collapse edges, the cheapest first, until a mesh is small enough.");
 }

@@ -3,11 +3,10 @@
 
 #include <Eigen/SparseCholesky>
 
+#include "hdpea_cpp/base/sparse.hpp"
 #include "hdpea_cpp/base/types.hpp"
 
 namespace hdpea {
-
-using SparseMatrix = Eigen::SparseMatrix<double>;
 
 /// A sparse Cholesky factorisation P A P^T = L L^T with a fill-reducing order, made once and solved often.
 ///

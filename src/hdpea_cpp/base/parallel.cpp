@@ -3,6 +3,7 @@
 
 #include <tbb/global_control.h>
 
+#include <algorithm>
 #include <memory>
 
 #include "hdpea_cpp/base/errors.hpp"
@@ -15,7 +16,9 @@ void set_thread_limit(int count) {
   static std::unique_ptr<tbb::global_control> limit;
   limit.reset();
   if (count > 0) {
-    limit = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism, count);
+    // TBB reserves memory for each thread that it is allowed.
+    constexpr int most = 1024;
+    limit = std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism, std::min(count, most));
   }
 }
 

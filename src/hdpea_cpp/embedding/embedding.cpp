@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "hdpea_cpp/base/checks.hpp"
 #include "hdpea_cpp/base/cholesky.hpp"
 #include "hdpea_cpp/base/disjoint_sets.hpp"
 #include "hdpea_cpp/base/errors.hpp"
@@ -51,10 +52,11 @@ Eigen::Matrix3d metric_excess(const PointsRef& normals, const Curvature& curvatu
   return excess1 * direction1 * direction1.transpose() + excess2 * direction2 * direction2.transpose();
 }
 
-class Solver {
+/// The triangles as finite elements: the Laplacian and the local step of the iteration.
+class Elements {
  public:
-  Solver(const PointsRef& points, const FacesRef& triangles, const Eigen::Ref<const Eigen::VectorXd>& weights,
-         const std::vector<Eigen::Matrix3d>& excess_of_points)
+  Elements(const PointsRef& points, const FacesRef& triangles, const Eigen::Ref<const Eigen::VectorXd>& weights,
+           const std::vector<Eigen::Matrix3d>& excess_of_points)
       : triangles_(triangles), elements_(static_cast<std::size_t>(triangles.rows())) {
     parallel_for(triangles.rows(),
                  [&](Index t) { elements_[t] = make_element(points, t, weights(t), excess_of_points); });
@@ -213,26 +215,34 @@ Coordinates solve_embedding(const PointsRef& points, const PointsRef& normals, c
                             const EmbeddingOptions& options, const Progress& progress,
                             const std::optional<Coordinates>& initial) {
   const Index n = points.rows();
-  require(normals.rows() == n && curvature.principal.rows() == n && curvature.direction1.rows() == n,
-          "points, normals and curvature must have one row per point");
-  require(weights.size() == triangles.rows(), "each triangle needs a weight");
-  require(triangles.size() == 0 || (triangles.minCoeff() >= 0 && triangles.maxCoeff() < n),
-          "a triangle refers to a point that does not exist");
-  require(options.metric_scale > 0 && options.max_stretch >= 1 && options.bending_length >= 0,
-          "metric_scale must be positive, max_stretch at least 1, bending_length at least 0");
-  require(!initial || (initial->rows() == n && initial->cols() == 5), "the initial psi must have five columns");
+  require(n >= 1, "solve_embedding needs at least one point");
+  require_finite(points, "points");
+  require_rows(normals, n, "normals");
+  require_finite(normals, "normals");
+  require_rows(curvature.principal, n, "principal curvatures");
+  require_finite(curvature.principal, "principal curvatures");
+  require_rows(curvature.direction1, n, "principal directions");
+  require_finite(curvature.direction1, "principal directions");
+  require_indices(triangles, 0, n, "triangles");
+  require_rows(weights, triangles.rows(), "weights");
+  require(weights.size() == 0 || (weights.allFinite() && weights.minCoeff() >= 0), "weights must be 0 or more");
+  require(options.metric_scale > 0 && options.max_stretch >= 1 && options.bending_length >= 0 &&
+              std::isfinite(options.bending_length) && options.iterations >= 0,
+          "metric_scale must be positive, max_stretch at least 1, bending_length and iterations at least 0");
+  require(!initial || (initial->rows() == n && initial->cols() == 5), "the initial psi must be (n, 5)");
+  if (initial) require_finite(*initial, "the initial psi");
 
   std::vector<Eigen::Matrix3d> excess(static_cast<std::size_t>(n));
   parallel_for(n, [&](Index i) { excess[i] = metric_excess(normals, curvature, i, options); });
-  Solver solver(points, triangles, weights, excess);
+  Elements elements(points, triangles, weights, excess);
 
   // Points in no triangle get a little area of their own; a little of A makes L definite, however much the
   // slivers between nearly equal points weigh. It slows psi's convergence by its ratio to L's eigenvalues, which
   // are tens, and does not move what psi converges to.
-  const double mean_area = std::max(solver.areas().mean(), 1e-300);
-  const Eigen::VectorXd areas = solver.areas().cwiseMax(1e-3 * mean_area);
+  const double mean_area = std::max(elements.areas().mean(), 1e-300);
+  const Eigen::VectorXd areas = elements.areas().cwiseMax(1e-3 * mean_area);
   const double anchor = 1e-3 / (points.colwise().maxCoeff() - points.colwise().minCoeff()).squaredNorm();
-  const SparseMatrix laplacian = solver.laplacian();
+  const SparseMatrix laplacian = elements.laplacian();
   const double squared_length = options.bending_length * options.bending_length;
   const Cholesky bending(squared_length * laplacian + diagonal(areas));
   const Cholesky poisson(laplacian + anchor * diagonal(areas));
@@ -242,7 +252,7 @@ Coordinates solve_embedding(const PointsRef& points, const PointsRef& normals, c
   const PinnedMeans pinned_means(triangles, areas, psi);
   for (Index iteration = 0; iteration < options.iterations; ++iteration) {
     report(progress, static_cast<double>(iteration) / static_cast<double>(options.iterations));
-    solver.divergence_of_frames(ahead, next);
+    elements.divergence_of_frames(ahead, next);
     bending.solve_in_place(next);
     next = areas.asDiagonal() * (next + anchor * ahead);
     poisson.solve_in_place(next);

@@ -10,7 +10,7 @@ namespace hdpea {
 
 /// How the embedding psi : surface -> R^5 is solved for. Lengths are in the unit of the points.
 struct EmbeddingOptions {
-  double metric_scale = 1.0;      ///< c of the metric s_i^2 = clamp(c |k_i|, 1, max_stretch^2), a length
+  double metric_scale = 0.5;      ///< c of the metric s_i^2 = clamp(c |k_i|, 1, max_stretch^2), a length
   double max_stretch = 8.0;       ///< largest stretch s in any direction, >= 1
   double bending_length = 0.008;  ///< psi does not bend below this length, >= 0; 0 crumples
   Index iterations = 25;          ///< local/global rounds

@@ -12,6 +12,11 @@ namespace hdpea {
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using SurfaceMesh = CGAL::Surface_mesh<Kernel::Point_3>;
 
+/// The mesh of vertices (v, 3) and faces (f, 3), which are edge-manifold and consistently oriented.
+///
+/// A pinched vertex, of which a Surface_mesh has none, becomes a vertex for each of its fans.
+SurfaceMesh to_cgal(const PointsRef& vertices, const FacesRef& faces);
+
 /// Vertices and faces of a mesh in the order it keeps them; removed ones are gone from it afterwards.
 TriangleMesh from_cgal(SurfaceMesh& mesh);
 

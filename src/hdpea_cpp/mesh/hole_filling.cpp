@@ -11,6 +11,8 @@
 #include <unordered_map>
 #include <vector>
 
+#include "hdpea_cpp/base/area_vector.hpp"
+#include "hdpea_cpp/base/checks.hpp"
 #include "hdpea_cpp/base/disjoint_sets.hpp"
 #include "hdpea_cpp/base/errors.hpp"
 
@@ -158,8 +160,7 @@ class HoleFiller {
   }
 
   Eigen::RowVector3d area_vector(Index a, Index b, Index c) const {
-    const Eigen::RowVector3d origin = vertices_.row(a);
-    return (vertices_.row(b) - origin).cross(vertices_.row(c) - origin);
+    return hdpea::area_vector(vertices_.row(a), vertices_.row(b), vertices_.row(c));
   }
 
   std::vector<PatchFace> triangulated(const Loop& loop) const {
@@ -190,7 +191,7 @@ class HoleFiller {
     for (PatchFace& face : patch) std::swap(face.corner[1], face.corner[2]);
   }
 
-  /// Whether a patch covers the loop, and none of its inner edges is one of the mesh's.
+  /// Whether a patch covers the loop, and none of its faces and inner edges is one of the mesh's.
   bool fits(const Loop& loop, const std::vector<PatchFace>& patch) const {
     const int length = static_cast<int>(loop.size());
     if (static_cast<int>(patch.size()) + 2 != length) return false;
@@ -198,6 +199,8 @@ class HoleFiller {
       for (int i = 0; i < 3; ++i) {
         const int from = face.corner[i], to = face.corner[(i + 1) % 3];
         const bool on_loop = (from + 1) % length == to;
+        const Index third = loop[face.corner[(i + 2) % 3]];
+        if (on_loop && opposite_.at(directed_key(loop[to], loop[from])) == third) return false;
         if (!on_loop && (has_edge(loop[from], loop[to]) || has_edge(loop[to], loop[from]))) return false;
       }
     }
@@ -231,8 +234,7 @@ class HoleFiller {
 }  // namespace
 
 FilledMesh fill_holes(const PointsRef& vertices, const FacesRef& faces, double max_size, const Progress& progress) {
-  require(faces.size() == 0 || (faces.minCoeff() >= 0 && faces.maxCoeff() < vertices.rows()),
-          "a face refers to a vertex that does not exist");
+  require_mesh(vertices, faces);
   require(max_size >= 0, "the size of holes to fill must be 0 or more");
   HoleFiller filler(vertices, faces);
   const std::vector<Loop> loops = filler.loops();

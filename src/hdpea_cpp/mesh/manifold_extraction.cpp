@@ -10,9 +10,11 @@
 #include <utility>
 #include <vector>
 
+#include "hdpea_cpp/base/area_vector.hpp"
+#include "hdpea_cpp/base/checks.hpp"
 #include "hdpea_cpp/base/errors.hpp"
 #include "hdpea_cpp/mesh/incremental_manifold.hpp"
-#include "hdpea_cpp/mesh/mesh_pieces.hpp"
+#include "hdpea_cpp/mesh/pinched_vertices.hpp"
 
 namespace hdpea {
 namespace {
@@ -58,7 +60,7 @@ class Extractor {
   Eigen::Vector3d position(Index i) const { return coordinates_.row(i).head<3>().transpose(); }
   /// The normal of the ascending triangle, of twice its area's length.
   Eigen::Vector3d area_vector(const Triangle& t) const {
-    return (position(t[1]) - position(t[0])).cross(position(t[2]) - position(t[0]));
+    return hdpea::area_vector(position(t[0]), position(t[1]), position(t[2]));
   }
   /// Positive if the ascending triangle faces the way its points' normals do, times its area.
   double outwardness(const Triangle& t) const {
@@ -75,7 +77,7 @@ class Extractor {
   bool joins_pieces(Index face, Index vertex);
   /// Counts what is refused for good; returns whether the triangle went in.
   bool try_insert(const Candidate& candidate);
-  /// Inserts what touches the mesh by enough edges, until nothing more does; returns what is left.
+  /// Inserts what touches the mesh by enough edges, until nothing more does; returns what did not enter.
   std::vector<Candidate> sweep_t12(std::vector<Candidate> waiting, bool bridging);
 
   const CoordinatesRef& coordinates_;
@@ -228,6 +230,16 @@ ExtractedMesh Extractor::finish() {
   return extracted;
 }
 
+void require_candidates(const Candidates& candidates, Index seeds) {
+  const Faces& triangles = candidates.triangles;
+  require_indices(triangles, 0, seeds, "candidate triangles");
+  require_rows(candidates.counts, triangles.rows(), "counts");
+  require_indices(candidates.counts.cast<Index>(), 1, 4, "counts");
+  require((triangles.col(0).array() < triangles.col(1).array()).all() &&
+              (triangles.col(1).array() < triangles.col(2).array()).all(),
+          "the corners of a candidate triangle must ascend");
+}
+
 }  // namespace
 
 ExtractedMesh extract_manifold(const CoordinatesRef& coordinates, const PointsRef& normals,
@@ -235,7 +247,10 @@ ExtractedMesh extract_manifold(const CoordinatesRef& coordinates, const PointsRe
                                const ExtractionOptions& options) {
   require(coordinates.cols() >= 3 && coordinates.rows() == normals.rows() && normals.rows() == disk_radii.size(),
           "coordinates must be (n, d >= 3), normals (n, 3) and radii (n)");
-  require(candidates.triangles.rows() == candidates.counts.size(), "each candidate needs a count");
+  require_finite(coordinates, "coordinates");
+  require_finite(normals, "normals");
+  require(disk_radii.allFinite() && (disk_radii.array() > 0).all(), "disk radii must be positive and finite");
+  require_candidates(candidates, coordinates.rows());
   require(options.max_fold > 0 && options.max_normal_angle > 0 && options.max_circumradius > 0,
           "the limits of the extraction must be positive");
   Extractor extractor(coordinates, normals, disk_radii, options);

@@ -37,7 +37,7 @@ struct ExtractedMesh {
   ExtractionCounts counts;
 };
 
-/// Chooses an edge- and vertex-manifold, oriented mesh from the candidates (paper, section D; Geogram's Co3Ne).
+/// Chooses an edge- and vertex-manifold, oriented mesh from the candidates (HD-PEA, section D; Geogram's Co3Ne).
 ///
 /// T3 first, then T12, best first: seen twice before once, then by circumradius in R^d. A T12 triangle must
 /// share two edges with the mesh, or one and bring a vertex that has no face yet; sweeps repeat until none

@@ -8,6 +8,7 @@
 #include <tuple>
 #include <vector>
 
+#include "hdpea_cpp/base/checks.hpp"
 #include "hdpea_cpp/base/disjoint_sets.hpp"
 #include "hdpea_cpp/base/errors.hpp"
 
@@ -125,8 +126,7 @@ std::optional<Index> MeshCheck::genus() const {
 }
 
 MeshCheck check_mesh(const PointsRef& vertices, const FacesRef& faces) {
-  require(vertices.allFinite(), "the mesh has a vertex that is not finite");
-  require((faces.array() >= 0).all() && (faces.array() < vertices.rows()).all(), "a face index is out of range");
+  require_mesh(vertices, faces);
   MeshCheck check;
   check.vertices = vertices.rows();
   check.faces = faces.rows();

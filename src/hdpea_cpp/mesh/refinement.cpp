@@ -7,21 +7,21 @@
 #include <numbers>
 #include <vector>
 
+#include "hdpea_cpp/base/area_vector.hpp"
+#include "hdpea_cpp/base/checks.hpp"
 #include "hdpea_cpp/base/errors.hpp"
+#include "hdpea_cpp/base/sparse.hpp"
 #include "hdpea_cpp/mesh/surface_distance.hpp"
 #include "hdpea_cpp/points/neighbors.hpp"
 
 namespace hdpea {
 namespace {
 
-using SparseMatrix = Eigen::SparseMatrix<double>;
-
 /// Normals of the faces times twice their areas.
 Points area_vectors(const Points& vertices, const FacesRef& faces) {
   Points vectors(faces.rows(), 3);
   for (Index f = 0; f < faces.rows(); ++f) {
-    const Eigen::RowVector3d a = vertices.row(faces(f, 0));
-    vectors.row(f) = (vertices.row(faces(f, 1)) - a).cross(vertices.row(faces(f, 2)) - a);
+    vectors.row(f) = area_vector(vertices.row(faces(f, 0)), vertices.row(faces(f, 1)), vertices.row(faces(f, 2)));
   }
   return vectors;
 }
@@ -161,7 +161,11 @@ Points take_safe_step(const Points& from, const Points& to, const FacesRef& face
 
 Points refine_vertices(const PointsRef& vertices, const FacesRef& faces, const PointsRef& points,
                        const PointsRef& normals, const RefinementOptions& options, const Progress& progress) {
-  require(points.rows() == normals.rows(), "points and normals must have one row per point");
+  require(faces.rows() >= 1 && points.rows() >= 1, "a fit needs at least one face and one point");
+  require_mesh(vertices, faces);
+  require_finite(points, "points");
+  require_rows(normals, points.rows(), "normals");
+  require_finite(normals, "normals");
   require(options.rounds >= 0 && options.pull > 0 && options.max_gap > 0,
           "rounds must be 0 or more, pull and max_gap positive");
   Points refined = vertices;

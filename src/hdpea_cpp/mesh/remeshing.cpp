@@ -2,19 +2,17 @@
 #include "hdpea_cpp/mesh/remeshing.hpp"
 
 #include <CGAL/Polygon_mesh_processing/detect_features.h>
-#include <CGAL/Polygon_mesh_processing/orient_polygon_soup.h>
-#include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
 #include <CGAL/Polygon_mesh_processing/remesh.h>
 #include <CGAL/Polygon_mesh_processing/shape_predicates.h>
 #include <CGAL/boost/graph/Euler_operations.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 #include <utility>
 #include <vector>
 
+#include "hdpea_cpp/base/checks.hpp"
 #include "hdpea_cpp/base/errors.hpp"
 #include "hdpea_cpp/mesh/cgal_mesh.hpp"
 
@@ -39,33 +37,25 @@ bool consistently_oriented(const FacesRef& faces) {
          std::none_of(edges.begin(), edges.end(), [](const auto& edge) { return edge.first == edge.second; });
 }
 
-SurfaceMesh to_cgal(const PointsRef& vertices, const FacesRef& faces) {
-  std::vector<Point> points;
-  for (Index v = 0; v < vertices.rows(); ++v) points.emplace_back(vertices(v, 0), vertices(v, 1), vertices(v, 2));
-  std::vector<std::array<std::size_t, 3>> triangles;
-  for (Index f = 0; f < faces.rows(); ++f) {
-    triangles.push_back({static_cast<std::size_t>(faces(f, 0)), static_cast<std::size_t>(faces(f, 1)),
-                         static_cast<std::size_t>(faces(f, 2))});
-  }
-  // A Surface_mesh has no pinched vertices: this gives each fan a vertex of its own. It turns no face, since all agree.
-  pmp::orient_polygon_soup(points, triangles);
-  SurfaceMesh mesh;
-  pmp::polygon_soup_to_polygon_mesh(points, triangles, mesh);
-  return mesh;
+bool has_no_length(const SurfaceMesh& mesh, SurfaceMesh::Edge_index e, double edge_length) {
+  const auto h = mesh.halfedge(e);
+  const double least = kNoLength * edge_length;
+  return CGAL::squared_distance(mesh.point(mesh.source(h)), mesh.point(mesh.target(h))) < least * least;
 }
 
 /// Joins vertices that only rounding tells apart. The needles between them have any normal, so they would stay, as
 /// sharp ones, and be split until a vertex has none but faces without area: there CGAL 5.5 crashes (its issue 7345).
 void collapse_edges_without_length(SurfaceMesh& mesh, double edge_length) {
-  const double least = kNoLength * edge_length;
   for (const auto e : mesh.edges()) {
-    const auto h = mesh.halfedge(e);
-    const double squared = CGAL::squared_distance(mesh.point(mesh.source(h)), mesh.point(mesh.target(h)));
-    if (squared < least * least && CGAL::Euler::does_satisfy_link_condition(e, mesh)) {
+    if (has_no_length(mesh, e, edge_length) && CGAL::Euler::does_satisfy_link_condition(e, mesh)) {
       CGAL::Euler::collapse_edge(e, mesh);
     }
   }
   mesh.collect_garbage();
+  const auto edges = mesh.edges();
+  if (std::any_of(edges.begin(), edges.end(), [&](auto e) { return has_no_length(mesh, e, edge_length); })) {
+    throw CannotReconstruct("vertices of the mesh that lie in one place cannot be joined without a hole");
+  }
 }
 
 /// Marks the vertices at which the border turns by more than the angle: CGAL would cut such corners off.
@@ -92,10 +82,9 @@ void unmark_degenerate_faces(const SurfaceMesh& mesh, SurfaceMesh::Property_map<
 }  // namespace
 
 TriangleMesh remesh_isotropically(const PointsRef& vertices, const FacesRef& faces, const RemeshingOptions& options) {
-  require(options.edge_length > 0, "edge_length must be positive");
-  require(vertices.allFinite(), "a coordinate is not finite");
-  require(faces.size() > 0 && faces.minCoeff() >= 0 && faces.maxCoeff() < vertices.rows(),
-          "remeshing needs faces, all of vertices that exist");
+  require(options.edge_length > 0 && std::isfinite(options.edge_length), "edge_length must be positive and finite");
+  require(faces.rows() >= 1, "remeshing needs at least one face");
+  require_mesh(vertices, faces);
   require(consistently_oriented(faces), "remeshing needs at most two faces to an edge, of one orientation");
   SurfaceMesh mesh = to_cgal(vertices, faces);
   collapse_edges_without_length(mesh, options.edge_length);

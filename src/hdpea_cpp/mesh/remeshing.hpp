@@ -20,7 +20,7 @@ struct RemeshingOptions {
 ///
 /// @param vertices  (n, 3), finite
 /// @param faces     (f, 3) indices into vertices, consistently oriented, at most two to an edge
-/// @throws InvalidArgument on a broken contract
+/// @throws InvalidArgument on a broken contract; CannotReconstruct if vertices lie in one place and cannot be joined
 TriangleMesh remesh_isotropically(const PointsRef& vertices, const FacesRef& faces, const RemeshingOptions& options);
 
 }  // namespace hdpea

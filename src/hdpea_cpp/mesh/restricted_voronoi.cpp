@@ -7,6 +7,7 @@
 #include <numbers>
 #include <vector>
 
+#include "hdpea_cpp/base/checks.hpp"
 #include "hdpea_cpp/base/errors.hpp"
 #include "hdpea_cpp/base/parallel.hpp"
 
@@ -15,7 +16,7 @@ namespace {
 
 using Triple = std::array<Index, 3>;
 constexpr Index kDisk = -1;       // label of an edge that lies on the disk's rim
-constexpr int kDiskCorners = 10;  // paper, section C
+constexpr int kDiskCorners = 10;  // HD-PEA, section C
 
 /// A corner of a cell, and the bisector (or the rim) on which the edge that starts there lies.
 struct Corner {
@@ -102,8 +103,11 @@ Candidates restricted_voronoi_candidates(const CoordinatesRef& seeds, const Coor
   const Index n = seeds.rows();
   const Index d = seeds.cols();
   require(bases.rows() == n && bases.cols() == 2 * d, "bases must be (n, 2 d)");
-  require(neighbors.rows() == n && radii.size() == n, "neighbors and radii must have one row per seed");
-  require((radii.array() > 0).all(), "disk radii must be positive");
+  require_finite(seeds, "seeds");
+  require_finite(bases, "bases");
+  require_neighbors(neighbors, n);
+  require_rows(radii, n, "radii");
+  require(radii.allFinite() && (radii.array() > 0).all(), "disk radii must be positive and finite");
 
   Candidates candidates{{}, {}, Eigen::VectorXd(n)};
   std::vector<std::vector<Triple>> triples_of(static_cast<std::size_t>(n));

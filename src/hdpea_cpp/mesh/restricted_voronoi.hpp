@@ -16,7 +16,7 @@ struct Candidates {
 ///
 /// In the plane of seed i, spanned by V_i, the bisector with j is the line u . V_i^T (x_j - x_i) =
 /// |x_j - x_i|^2 / 2, so d enters in two dot products only. A polygon vertex between the bisectors with j
-/// and k is dual to the triangle {i, j, k} (paper, sections 3.3, C and D; Boltcheva & Levy 2017).
+/// and k is dual to the triangle {i, j, k} (HD-PEA, sections 3.3, C and D; Boltcheva & Levy 2017).
 ///
 /// @param seeds      (n, d)
 /// @param bases      (n, 2 d) orthonormal tangent bases, as from tangent_bases()

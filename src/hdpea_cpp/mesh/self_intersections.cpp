@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "hdpea_cpp/base/checks.hpp"
 #include "hdpea_cpp/base/errors.hpp"
 #include "hdpea_cpp/base/parallel.hpp"
 
@@ -80,8 +81,7 @@ class Soup {
 }  // namespace
 
 Index count_self_intersections(const PointsRef& vertices, const FacesRef& faces) {
-  require(vertices.allFinite(), "the mesh has a vertex that is not finite");
-  require((faces.array() >= 0).all() && (faces.array() < vertices.rows()).all(), "a face index is out of range");
+  require_mesh(vertices, faces);
   const Soup soup(vertices, faces);
   const std::vector<FacePair> pairs = soup.candidates();
   using Range = tbb::blocked_range<std::size_t>;

@@ -12,6 +12,8 @@
 #include <utility>
 #include <vector>
 
+#include "hdpea_cpp/base/area_vector.hpp"
+#include "hdpea_cpp/base/checks.hpp"
 #include "hdpea_cpp/base/errors.hpp"
 #include "hdpea_cpp/mesh/cgal_mesh.hpp"
 #include "hdpea_cpp/mesh/mesh_check.hpp"
@@ -63,7 +65,7 @@ std::vector<Part> parts_of(const SurfaceMesh& mesh, const PointsRef& vertices, c
   for (Index v = 0; v < vertices.rows(); ++v) parts[v].centroid = coordinates.row(v).transpose();
   for (Index f = 0; f < faces.rows(); ++f) {
     const Eigen::Vector3d a = vertices.row(faces(f, 0)), b = vertices.row(faces(f, 1)), c = vertices.row(faces(f, 2));
-    const Eigen::Vector3d normal = (b - a).cross(c - a);
+    const Eigen::Vector3d normal = area_vector(a, b, c);
     const Eigen::Matrix4d quadric = plane_quadric(normal.normalized(), a, normal.norm() / 6);
     const double area = triangle_area(coordinates, faces(f, 0), faces(f, 1), faces(f, 2));
     for (Index v : faces.row(f)) {
@@ -163,22 +165,12 @@ class WithinBudget {
   mutable Index next_ = first_;  // CGAL asks a const predicate
 };
 
-SurfaceMesh to_cgal(const PointsRef& vertices, const FacesRef& faces) {
-  SurfaceMesh mesh;
-  for (Index v = 0; v < vertices.rows(); ++v) mesh.add_vertex(Point(vertices(v, 0), vertices(v, 1), vertices(v, 2)));
-  const auto vertex = [](Index v) { return Vertex(static_cast<Vertex::size_type>(v)); };
-  for (Index f = 0; f < faces.rows(); ++f) {
-    mesh.add_face(vertex(faces(f, 0)), vertex(faces(f, 1)), vertex(faces(f, 2)));
-  }
-  return mesh;
-}
-
 }  // namespace
 
 SimplifiedMesh simplify_mesh(const PointsRef& vertices, const CoordinatesRef& coordinates, const FacesRef& faces,
                              const MeshBudget& budget, const SimplificationOptions& options, const Progress& progress) {
-  require(coordinates.rows() == vertices.rows(), "vertices and coordinates must have one row per vertex");
-  require(coordinates.allFinite(), "a coordinate is not finite");
+  require_rows(coordinates, vertices.rows(), "coordinates");
+  require_finite(coordinates, "coordinates");
   require(options.evenness >= 0 && options.border >= 0, "evenness and border must be 0 or more");
   const MeshCheck check = check_mesh(vertices, faces);
   require(check.manifold() && check.oriented(), "simplification needs a manifold, oriented mesh");

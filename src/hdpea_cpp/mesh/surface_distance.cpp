@@ -16,6 +16,7 @@
 #include <limits>
 #include <vector>
 
+#include "hdpea_cpp/base/checks.hpp"
 #include "hdpea_cpp/base/errors.hpp"
 #include "hdpea_cpp/base/parallel.hpp"
 #include "hdpea_cpp/points/neighbors.hpp"
@@ -171,8 +172,8 @@ class Traversal {
 
 SurfacePoints closest_surface_points(const PointsRef& vertices, const FacesRef& faces, const PointsRef& queries) {
   require(faces.rows() >= 1, "the mesh has no face");
-  require(vertices.allFinite() && queries.allFinite(), "a coordinate is not finite");
-  require((faces.array() >= 0).all() && (faces.array() < vertices.rows()).all(), "a face index is out of range");
+  require_mesh(vertices, faces);
+  require_finite(queries, "queries");
   const Surface surface(vertices, faces);
   const Neighbors hints = nearest_neighbors(surface.centroids(), queries, 1);
   const Index count = queries.rows();

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hdpea_cpp/base/checks.hpp"
 #include "hdpea_cpp/base/errors.hpp"
 #include "hdpea_cpp/base/parallel.hpp"
 
@@ -52,8 +53,8 @@ Eigen::Vector3d fit_shape_operator(const PointsRef& points, const PointsRef& nor
 Curvature estimate_curvature(const PointsRef& points, const PointsRef& normals, const NeighborsRef& neighbors,
                              double radius) {
   const Index n = points.rows();
-  require(normals.rows() == n && neighbors.rows() == n, "points, normals and neighbors must have one row per point");
-  require(radius > 0, "the curvature radius must be positive");
+  require_neighborhoods(points, normals, neighbors);
+  require(radius > 0 && std::isfinite(radius), "the curvature radius must be positive and finite");
   Curvature curvature{{n, 2}, Points(n, 3)};
   parallel_for(n, [&](Index i) {
     const Eigen::Vector3d normal = normals.row(i).transpose();

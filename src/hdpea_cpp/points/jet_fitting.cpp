@@ -11,6 +11,7 @@
 #include <optional>
 #include <vector>
 
+#include "hdpea_cpp/base/checks.hpp"
 #include "hdpea_cpp/base/errors.hpp"
 #include "hdpea_cpp/base/parallel.hpp"
 
@@ -112,7 +113,7 @@ void write_jet(Jets& jets, Index i, Jet jet, const Eigen::RowVector3d& normal) {
 Jets fit_jets(const PointsRef& points, const PointsRef& normals, const NeighborsRef& neighbors,
               const JetOptions& options) {
   const Index n = points.rows();
-  require(normals.rows() == n && neighbors.rows() == n, "points, normals and neighbors must have one row per point");
+  require_neighborhoods(points, normals, neighbors);
   require(options.least_neighbors >= static_cast<Index>(kCoefficients) - 1, "a jet needs 5 neighbours");
   Jets jets{{{n, 2}, Points(n, 3)}, normals, Eigen::VectorXd(n), Eigen::VectorX<Index>(n)};
   parallel_for(n, [&](Index i) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hdpea_cpp/base/checks.hpp"
 #include "hdpea_cpp/base/errors.hpp"
 #include "hdpea_cpp/base/parallel.hpp"
 
@@ -21,9 +22,9 @@ using Quadric = Eigen::Matrix<double, 6, 1>;
 SurfacePlaces moving_least_squares(const PointsRef& places, const PointsRef& normals, const PointsRef& points,
                                    const NeighborsRef& neighbors, const MovingLeastSquaresOptions& options) {
   const Index n = points.rows();
-  require(places.rows() == n && normals.rows() == n && neighbors.rows() == n,
-          "places, normals, points and neighbors must have one row per point");
-  require((neighbors.array() < n).all(), "a neighbour index is out of range");
+  require_rows(places, n, "places");
+  require_finite(places, "places");
+  require_neighborhoods(points, normals, neighbors);
   SurfacePlaces moved{places, normals};
   parallel_for(n, [&](Index i) {
     const Eigen::Vector3d place = places.row(i), normal = normals.row(i);
@@ -52,7 +53,9 @@ SurfacePlaces moving_least_squares(const PointsRef& places, const PointsRef& nor
     }
     matrix.diagonal().array() += ridge * matrix.trace();
     const Quadric quadric = matrix.ldlt().solve(right);
-    moved.points.row(i) += radius * quadric[0] * normal.transpose();
+    if (!quadric.allFinite()) return;
+    // A quadric that the neighbours do not determine may pass anywhere.
+    moved.points.row(i) += radius * std::clamp(quadric[0], -1.0, 1.0) * normal.transpose();
     moved.normals.row(i) = (normal - quadric[1] * u - quadric[2] * v).normalized().transpose();
   });
   return moved;

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "hdpea_cpp/base/checks.hpp"
 #include "hdpea_cpp/base/errors.hpp"
 #include "hdpea_cpp/base/parallel.hpp"
 
@@ -62,22 +63,24 @@ class NearestSet {
 
 using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Adaptor<double, Adaptor>, Adaptor, -1, Index>;
 
-/// The row's k nearest, leaving out `excluded` (-1: nothing is left out).
+/// The row's k nearest of `count` points, leaving out `excluded` (-1: nothing is left out).
 template <class Row>
-void search(const Tree& tree, const double* query, Index excluded, Row row) {
+void search(const Tree& tree, Index count, const double* query, Index excluded, Row row) {
   thread_local std::vector<Index> found;
-  NearestSet nearest(static_cast<std::size_t>(row.size()) + (excluded >= 0 ? 1 : 0));
+  const Index wanted = std::min<Index>(row.size(), count);
+  NearestSet nearest(static_cast<std::size_t>(wanted) + (excluded >= 0 ? 1 : 0));
   tree.findNeighbors(nearest, query, nanoflann::SearchParams());
   found.clear();
   for (const auto& [distance, index] : nearest.sorted()) {
     if (index != excluded) found.push_back(index);
   }
   row.setConstant(-1);
-  const Index count = std::min<Index>(row.size(), static_cast<Index>(found.size()));
-  for (Index i = 0; i < count; ++i) row(i) = found[i];
+  const Index filled = std::min<Index>(row.size(), static_cast<Index>(found.size()));
+  for (Index i = 0; i < filled; ++i) row(i) = found[i];
 }
 
 void check(const CoordinatesRef& points, Index k) {
+  require_finite(points, "points");
   require(k >= 1, "the number of neighbours must be at least 1");
   require(points.rows() >= 1 && points.cols() >= 1, "nearest_neighbors needs at least one point");
 }
@@ -87,10 +90,12 @@ void check(const CoordinatesRef& points, Index k) {
 Neighbors nearest_neighbors(const CoordinatesRef& points, const CoordinatesRef& queries, Index k) {
   check(points, k);
   require(points.cols() == queries.cols(), "points and queries must have the same dimension");
+  require_finite(queries, "queries");
   const Adaptor adaptor{points};
   const Tree tree(static_cast<int>(points.cols()), adaptor);
   Neighbors neighbors(queries.rows(), k);
-  parallel_for(queries.rows(), [&](Index i) { search(tree, queries.row(i).data(), -1, neighbors.row(i)); });
+  parallel_for(queries.rows(),
+               [&](Index i) { search(tree, points.rows(), queries.row(i).data(), -1, neighbors.row(i)); });
   return neighbors;
 }
 
@@ -99,7 +104,7 @@ Neighbors nearest_neighbors(const CoordinatesRef& points, Index k) {
   const Adaptor adaptor{points};
   const Tree tree(static_cast<int>(points.cols()), adaptor);
   Neighbors neighbors(points.rows(), k);
-  parallel_for(points.rows(), [&](Index i) { search(tree, points.row(i).data(), i, neighbors.row(i)); });
+  parallel_for(points.rows(), [&](Index i) { search(tree, points.rows(), points.row(i).data(), i, neighbors.row(i)); });
   return neighbors;
 }
 

@@ -7,6 +7,7 @@
 #include <tuple>
 #include <vector>
 
+#include "hdpea_cpp/base/checks.hpp"
 #include "hdpea_cpp/base/errors.hpp"
 #include "hdpea_cpp/base/signed_sets.hpp"
 
@@ -65,7 +66,7 @@ std::vector<char> face_inwards(const PointsRef& points, const Points& normals, c
 
 Points orient_normals(const PointsRef& points, const PointsRef& normals, const NeighborsRef& neighbors) {
   const Index n = points.rows();
-  require(normals.rows() == n && neighbors.rows() == n, "points, normals and neighbors must have one row per point");
+  require_neighborhoods(points, normals, neighbors);
   Points oriented = normals;
   for (Index i = 0; i < n; ++i) {
     // One sign for n and -n, whatever was given.
@@ -93,7 +94,8 @@ Points orient_normals(const PointsRef& points, const PointsRef& normals, const N
 Points agree_on_signs(const PointsRef& points, const PointsRef& normals, const NeighborsRef& neighbors,
                       double least_cosine) {
   const Index n = points.rows();
-  require(normals.rows() == n && neighbors.rows() == n, "points, normals and neighbors must have one row per point");
+  require(least_cosine >= -1, "the least cosine must be at least -1");
+  require_neighborhoods(points, normals, neighbors);
   SignedSets pieces(n);
   for (const Edge& edge : sorted_edges(points, normals, neighbors)) {
     if (edge.cost > 1 - least_cosine) break;
@@ -114,8 +116,7 @@ Points agree_on_signs(const PointsRef& points, const PointsRef& normals, const N
 }
 
 double orientation_consistency(const PointsRef& points, const PointsRef& normals, const NeighborsRef& neighbors) {
-  require(normals.rows() == points.rows() && neighbors.rows() == points.rows(),
-          "points, normals and neighbors must have one row per point");
+  require_neighborhoods(points, normals, neighbors);
   Index agree = 0, count = 0;
   for (Index i = 0; i < points.rows(); ++i) {
     for (Index j : neighbors.row(i)) {

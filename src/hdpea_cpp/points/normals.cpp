@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "hdpea_cpp/base/checks.hpp"
 #include "hdpea_cpp/base/errors.hpp"
 #include "hdpea_cpp/base/parallel.hpp"
 
@@ -129,9 +130,8 @@ class Estimation {
 }  // namespace
 
 Points estimate_normals(const PointsRef& points, const NeighborsRef& neighbors) {
-  require(points.rows() == neighbors.rows(), "points and neighbors must have one row per point");
-  require(points.allFinite(), "a coordinate is not finite");
-  require((neighbors.array() < points.rows()).all(), "a neighbour index is out of range");
+  require_finite(points, "points");
+  require_neighbors(neighbors, points.rows());
   if (points.rows() == 0) return Points(0, 3);
   return Estimation(points, neighbors).run();
 }

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <vector>
 
+#include "hdpea_cpp/base/checks.hpp"
 #include "hdpea_cpp/base/errors.hpp"
 #include "hdpea_cpp/base/parallel.hpp"
 
@@ -54,7 +55,7 @@ double third_distance(const PointsRef& points, const NeighborsRef& neighbors, In
 Neighbors sheet_neighbors(const PointsRef& points, const PointsRef& normals, const NeighborsRef& neighbors,
                           const SheetOptions& options) {
   const Index n = points.rows();
-  require(normals.rows() == n && neighbors.rows() == n, "points, normals and neighbors must have one row per point");
+  require_neighborhoods(points, normals, neighbors);
   std::vector<char> rim(static_cast<std::size_t>(n));
   std::vector<double> reach(static_cast<std::size_t>(n));
   parallel_for(n, [&](Index i) {
@@ -77,7 +78,9 @@ Neighbors sheet_neighbors(const PointsRef& points, const PointsRef& normals, con
 }
 
 Points blended_normals(const PointsRef& normals, const NeighborsRef& sheet_neighbors, Index count) {
-  require(normals.rows() == sheet_neighbors.rows(), "normals and neighbors must have one row per point");
+  require_finite(normals, "normals");
+  require_neighbors(sheet_neighbors, normals.rows());
+  require(count >= 0, "the number of neighbours must be 0 or more");
   Points blended(normals.rows(), 3);
   parallel_for(normals.rows(), [&](Index i) {
     Eigen::RowVector3d sum = normals.row(i);

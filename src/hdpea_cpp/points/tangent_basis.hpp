@@ -8,10 +8,10 @@ namespace hdpea {
 /// Orthonormal bases of the tangent planes of an embedded surface [p, psi(p)] in R^d.
 ///
 /// The plane of p in R^3 is known from its normal; psi is fitted on it as an affine map, by weighted least squares
-/// over the neighbours, and the tangent plane is the graph of that map. The paper takes PCA in R^d (section 3.2),
+/// over the neighbours, and the tangent plane is the graph of that map. HD-PEA takes PCA in R^d (section 3.2),
 /// which on thin parts, where the neighbours reach around a strut, finds the plane of the reach instead.
 ///
-/// Give the neighbours *in R^3*, of the same sheet (the paper's ablation: they keep the topology where
+/// Give the neighbours *in R^3*, of the same sheet (the ablation of HD-PEA: they keep the topology where
 /// neighbours in R^d jump between folds).
 ///
 /// @param coordinates  (n, d), d >= 3, the first three the positions

@@ -7,6 +7,7 @@
 #include <numeric>
 #include <tuple>
 
+#include "hdpea_cpp/base/checks.hpp"
 #include "hdpea_cpp/base/errors.hpp"
 #include "hdpea_cpp/base/parallel.hpp"
 
@@ -43,7 +44,7 @@ constexpr double one_over_4pi = 1 / (4 * std::numbers::pi);
 
 WindingTree::WindingTree(const PointsRef& points) : order_(static_cast<std::size_t>(points.rows())) {
   require(points.rows() >= 1, "a tree needs at least one point");
-  require(points.allFinite(), "a coordinate is not finite");
+  require_finite(points, "points");
   const Eigen::RowVector3d low = points.colwise().minCoeff();
   const double diagonal = (points.colwise().maxCoeff() - low).norm();
   size_ = diagonal > 0 ? diagonal : 1;
@@ -56,7 +57,7 @@ WindingTree::WindingTree(const PointsRef& points) : order_(static_cast<std::size
   for (std::size_t n = 0; n < nodes_.size(); ++n) {
     centers_.row(static_cast<Index>(n)) = nodes_[n].center.cast<float>().array();
   }
-  find_sources();
+  find_interactions();
 }
 
 /// Halves the points across their longest extent; which half a point falls into is a matter of positions alone.
@@ -91,8 +92,8 @@ Index WindingTree::build(Index begin, Index end) {
   return node;
 }
 
-void WindingTree::find_sources() {
-  sources_.resize(leaves_.size());
+void WindingTree::find_interactions() {
+  interactions_.resize(leaves_.size());
   parallel_for(
       static_cast<Index>(leaves_.size()),
       [&](Index l) {
@@ -103,9 +104,9 @@ void WindingTree::find_sources() {
           open.pop_back();
           const Node& node = nodes_[n];
           if (node.radius < opening * ((node.center - leaf.center).norm() - leaf.radius)) {
-            sources_[l].far.push_back(n);
+            interactions_[l].far.push_back(n);
           } else if (node.second_child == 0) {
-            sources_[l].near.push_back(n);
+            interactions_[l].near.push_back(n);
           } else {
             open.push_back(node.second_child);
             open.push_back(n + 1);
@@ -164,13 +165,13 @@ void WindingTree::sum(const Kernel& kernel, double width) const {
           d.cubed = d.squared * d.squared.sqrt();
         };
         Lanes sums[3] = {Lanes::Zero(), Lanes::Zero(), Lanes::Zero()};
-        for (Index n : sources_[l].near) {
+        for (Index n : interactions_[l].near) {
           for (Index i = nodes_[n].begin; i < nodes_[n].end; ++i) {
             look_at(positions_.row(i));
             kernel.add_point(i, d, sums);
           }
         }
-        for (Index n : sources_[l].far) {
+        for (Index n : interactions_[l].far) {
           look_at(centers_.row(n));
           kernel.add_cell(n, d, sums);
         }

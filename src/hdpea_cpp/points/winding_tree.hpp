@@ -49,13 +49,13 @@ class WindingTree {
     Eigen::Array<float, Eigen::Dynamic, 9, Eigen::RowMajor> moment;
   };
 
-  /// The nodes that a leaf sees: leaves point by point, and cells as one.
-  struct Seen {
+  /// The nodes that act on a leaf: near ones point by point, far ones as one.
+  struct Interactions {
     std::vector<Index> near, far;
   };
 
   Index build(Index begin, Index end);
-  void find_sources();
+  void find_interactions();
   Sources sources_of(const Points& values) const;
   template <class Kernel>
   void sum(const Kernel& kernel, double width) const;
@@ -65,8 +65,8 @@ class WindingTree {
   double size_ = 1;
   std::vector<Node> nodes_;
   std::vector<Index> leaves_;
-  Values positions_, centers_;  ///< of the points as sorted and of the nodes, as they are summed
-  std::vector<Seen> sources_;   ///< of each leaf
+  Values positions_, centers_;              ///< of the points as sorted and of the nodes, as they are summed
+  std::vector<Interactions> interactions_;  ///< of each leaf
 };
 
 }  // namespace hdpea

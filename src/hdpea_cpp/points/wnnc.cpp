@@ -6,6 +6,7 @@
 #include <numbers>
 #include <vector>
 
+#include "hdpea_cpp/base/checks.hpp"
 #include "hdpea_cpp/base/errors.hpp"
 #include "hdpea_cpp/base/parallel.hpp"
 #include "hdpea_cpp/points/neighbors.hpp"
@@ -42,8 +43,9 @@ void approach_half(const WindingTree& tree, double width, Points& moments) {
 Points wnnc_normals(const PointsRef& points, const WnncOptions& options, const Progress& progress) {
   const Index n = points.rows();
   require(n >= 1, "wnnc_normals needs at least one point");
-  require(points.allFinite(), "a coordinate is not finite");
-  require(options.iterations >= 1 && options.first_width > 0 && options.spacings_wide > 0,
+  require_finite(points, "points");
+  require(options.iterations >= 1 && options.first_width > 0 && options.spacings_wide > 0 &&
+              std::isfinite(options.spacings_wide),
           "iterations and widths must be positive");
   Points normals = Eigen::RowVector3d::UnitZ().replicate(n, 1);
   if (n == 1) return normals;

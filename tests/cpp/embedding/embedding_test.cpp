@@ -60,6 +60,7 @@ TEST(Embedding, StretchesACylinderAroundItByTheMetricAndNotAlongIt) {
   // k = 16 around it, so s = sqrt(k) = 4 there; along it the metric is flat and s = 1.
   const auto cylinder = clouds::cylinder(8000, 1.0 / 16, 0.8);
   EmbeddingOptions options;
+  options.metric_scale = 1;
   options.bending_length = 0.004;
   const Eigen::Vector2d stretch = stretches(cylinder, embedded(cylinder, 0.03, 0.02, options));
   EXPECT_NEAR(stretch(0), 4, 0.6);

@@ -171,6 +171,15 @@ TEST(HoleFilling, DoesNotSearchAllPatchesOfALongLoop) {
   EXPECT_EQ(closed.left, 0);
 }
 
+TEST(HoleFilling, ClosesASingleTriangleWithoutItsTwin) {
+  const auto tetrahedron = shapes::tetrahedron();
+  const FilledMesh closed = fill_holes(tetrahedron.vertices, tetrahedron.faces.topRows(1), kEverything);
+  const MeshCheck check = check_mesh(closed.vertices, closed.faces);
+  EXPECT_TRUE(sound(closed));
+  EXPECT_EQ(check.duplicate_faces, 0);
+  EXPECT_EQ(check.boundary_edges, 0);
+}
+
 TEST(HoleFilling, RefusesAMeshThatIsNotManifold) {
   const auto tetrahedron = shapes::tetrahedron();
   Faces twice(5, 3);

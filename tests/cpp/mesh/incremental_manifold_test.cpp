@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "hdpea_cpp/mesh/mesh_pieces.hpp"
+#include "hdpea_cpp/mesh/pinched_vertices.hpp"
 
 namespace hdpea {
 namespace {

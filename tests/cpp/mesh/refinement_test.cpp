@@ -90,6 +90,8 @@ TEST(Refinement, RefusesABadContract) {
   const auto mesh = shapes::tetrahedron();
   const auto sphere = clouds::sphere(100);
   RefinementOptions options;
+  const Faces beyond = Faces::Constant(4, 3, mesh.vertices.rows());
+  EXPECT_THROW(refine_vertices(mesh.vertices, beyond, sphere.points, sphere.normals, options), InvalidArgument);
   options.pull = 0;
   EXPECT_THROW(refine_vertices(mesh.vertices, mesh.faces, sphere.points, sphere.normals, options), InvalidArgument);
 }

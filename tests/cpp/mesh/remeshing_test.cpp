@@ -150,5 +150,12 @@ TEST(Remeshing, RefusesABadContract) {
   EXPECT_THROW(remeshed(fan, 0.1), InvalidArgument) << "three faces share an edge";
 }
 
+TEST(Remeshing, RefusesAMeshCollapsedToAPoint) {
+  const auto tetrahedron = shapes::tetrahedron();
+  RemeshingOptions options;
+  options.edge_length = 0.5;
+  EXPECT_THROW(remesh_isotropically(Points::Zero(4, 3), tetrahedron.faces, options), CannotReconstruct);
+}
+
 }  // namespace
 }  // namespace hdpea

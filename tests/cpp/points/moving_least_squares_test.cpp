@@ -7,6 +7,7 @@
 
 #include "hdpea_cpp/base/errors.hpp"
 #include "hdpea_cpp/points/neighbors.hpp"
+#include "hdpea_cpp/points/normals.hpp"
 #include "helpers/clouds.hpp"
 
 namespace hdpea {
@@ -52,6 +53,16 @@ TEST(MovingLeastSquares, LeaveAPointWithoutNeighborsAlone) {
       moving_least_squares(sphere.points, sphere.normals, sphere.points, Neighbors::Constant(10, 5, -1));
   EXPECT_EQ(largest(moved.points - sphere.points), 0);
   EXPECT_EQ(largest(moved.normals - sphere.normals), 0);
+}
+
+TEST(MovingLeastSquares, NeverMoveAPointBeyondItsNeighbors) {
+  // Heaps of points a millionth wide: between them a quadric may pass anywhere.
+  Points points = 1e-6 * Points::Random(400, 3);
+  for (Index i = 0; i < points.rows(); ++i) points.row(i) += Eigen::RowVector3d(i % 2, i / 2 % 2, i / 4 % 2);
+  const Neighbors neighbors = nearest_neighbors(points, 80);
+  const SurfacePlaces moved = moving_least_squares(points, estimate_normals(points, neighbors), points, neighbors);
+  const double reach = (points.row(neighbors(0, 79)) - points.row(0)).norm();
+  EXPECT_LE((moved.points - points).rowwise().norm().maxCoeff(), 2 * reach);
 }
 
 TEST(MovingLeastSquares, RefuseRowsThatDoNotMatch) {

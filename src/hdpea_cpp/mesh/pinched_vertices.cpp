@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "hdpea_cpp/mesh/mesh_pieces.hpp"
+#include "hdpea_cpp/mesh/pinched_vertices.hpp"
 
 namespace hdpea {
 namespace {

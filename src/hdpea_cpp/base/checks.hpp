@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Checks of what a public function of the core is given: each takes one pass and throws InvalidArgument.
+#pragma once
+
+#include <string>
+
+#include "hdpea_cpp/base/errors.hpp"
+#include "hdpea_cpp/base/types.hpp"
+
+namespace hdpea {
+
+template <class Matrix>
+void require_finite(const Matrix& matrix, const std::string& name) {
+  require(matrix.size() == 0 || matrix.allFinite(), name + " must be finite");
+}
+
+template <class Matrix>
+void require_rows(const Matrix& matrix, Index rows, const std::string& name) {
+  require(matrix.rows() == rows,
+          name + " must have " + std::to_string(rows) + " rows, not " + std::to_string(matrix.rows()));
+}
+
+/// Every index lies in [least, count).
+template <class Matrix>
+void require_indices(const Matrix& indices, Index least, Index count, const std::string& name) {
+  if (indices.size() == 0) return;
+  const Index lowest = indices.minCoeff(), highest = indices.maxCoeff();
+  require(lowest >= least && highest < count, name + " must lie in [" + std::to_string(least) + ", " +
+                                                  std::to_string(count) + "), not " +
+                                                  std::to_string(lowest < least ? lowest : highest));
+}
+
+/// Neighbours of `count` points: a row for each, of points that exist, or -1.
+inline void require_neighbors(const NeighborsRef& neighbors, Index count) {
+  require_rows(neighbors, count, "neighbors");
+  require_indices(neighbors, -1, count, "neighbors");
+}
+
+/// Finite points, a finite normal for each, and its neighbours among them.
+template <class Matrix>
+void require_neighborhoods(const Matrix& points, const PointsRef& normals, const NeighborsRef& neighbors) {
+  require_finite(points, "points");
+  require_rows(normals, points.rows(), "normals");
+  require_finite(normals, "normals");
+  require_neighbors(neighbors, points.rows());
+}
+
+/// Finite vertices, and faces of vertices that exist.
+inline void require_mesh(const PointsRef& vertices, const FacesRef& faces) {
+  require_finite(vertices, "vertices");
+  require_indices(faces, 0, vertices.rows(), "faces");
+}
+
+}  // namespace hdpea
