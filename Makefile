@@ -29,7 +29,7 @@ CPP_SOURCES := $(shell find src tests/cpp -name '*.[ch]pp')
 help:
 	@echo "make demo      reconstruct two real scans into $(DEMO)/"
 	@echo "make test      everything below"
-	@echo "make lint      ruff, mypy, clang-format"
+	@echo "make lint      ruff, mypy, import-linter, clang-format"
 	@echo "make core      the C++ core: build with warnings as errors, run its tests"
 	@echo "make sanitize  the same under the address and undefined-behaviour sanitizers"
 	@echo "make pytest    the Python tests, on the installed package"
@@ -111,6 +111,7 @@ lint: setup
 	$(BIN)/ruff check
 	$(BIN)/ruff format --check
 	$(BIN)/mypy
+	$(BIN)/lint-imports
 	$(BIN)/clang-format --dry-run -Werror $(CPP_SOURCES)
 
 format: $(VENV)/.dependencies

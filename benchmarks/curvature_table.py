@@ -36,10 +36,10 @@ from hdpea.curvature.from_embedding import LEAST_RATIO
 from hdpea.curvature.options import EstimationOptions
 from hdpea.curvature.tensors import metric_tensors
 from hdpea.dataset.ground_truth import embed_mesh
-from hdpea.dataset.options import GroundTruthOptions, SamplingOptions
+from hdpea.dataset.options import GroundTruthOptions
 from hdpea.embedding import EMBEDDERS
-from hdpea.embedding.embedded import Metric
 from hdpea.errors import HdpeaError
+from hdpea.geometry.metric import Metric
 from hdpea.geometry.sampling import sample_surface
 from hdpea.geometry.triangles import mesh_area
 from hdpea.options import EmbeddingOptions, NormalOptions
@@ -173,7 +173,7 @@ def cloud_of_mesh(path: Path, count: int) -> Cloud:
     vertices, faces = read_mesh(path)
     embedded = embed_mesh(vertices, faces)
     seed = zlib.crc32(path.stem.encode()) % 100_000
-    drawn = sample_surface(vertices, faces, SamplingOptions(points=count, seed=seed))
+    drawn = sample_surface(vertices, faces, count, seed=seed)
     points = embedded.frame.to_unit(drawn.points)
     here = embedded.at(points)
     area = mesh_area(embedded.frame.to_unit(vertices), faces)

@@ -23,7 +23,7 @@ import fast_simplification
 import numpy as np
 from val_table import ROOT, load_metrics
 
-from hdpea.evaluation.evaluating import evaluate
+from hdpea.evaluation.evaluation import evaluate
 from hdpea.evaluation.normalization import DIAGONAL, LONGEST_SIDE
 from hdpea.evaluation.options import EvaluationOptions
 from hdpea.evaluation.scores import Evaluation

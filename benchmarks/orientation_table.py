@@ -25,8 +25,8 @@ from numpy.typing import NDArray
 from val_table import POINTS, ROOT, Sampled, load_metrics, meshes_of
 
 from hdpea.dataset.options import ScanOptions
+from hdpea.dataset.sample_picture import PANEL
 from hdpea.dataset.scanning import scan_surface
-from hdpea.dataset.showing import PANEL
 from hdpea.dataset.surface_file import read_surface
 from hdpea.geometry.unit_frame import UnitFrame
 from hdpea.options import NormalOptions

@@ -15,8 +15,7 @@ from pathlib import Path
 import click
 import numpy as np
 
-from hdpea.dataset.options import SamplingOptions
-from hdpea.dataset.sources import find_meshes
+from hdpea.dataset.discovery import find_meshes
 from hdpea.dataset.surface_file import read_surface
 from hdpea.geometry.sampling import sample_surface
 from hdpea.geometry.unit_frame import UnitFrame
@@ -33,7 +32,7 @@ def main(*, folder: Path, points: int) -> None:
     """Print the roughness of points of the meshes of FOLDER."""
     surfaces = [read_surface(source.path) for source in find_meshes(str(folder))]
     drawn = [
-        sample_surface(UnitFrame.around(vertices).to_unit(vertices), faces, SamplingOptions(points=points)).points
+        sample_surface(UnitFrame.around(vertices).to_unit(vertices), faces, points).points
         for vertices, faces in surfaces
     ]
     click.echo(f"| noise | median roughness | like noise, of {len(drawn)} | denoised |\n|---|---|---|---|")

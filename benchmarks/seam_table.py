@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 from val_table import read_mesh
 
 from hdpea.dataset.ground_truth import embed_mesh
-from hdpea.dataset.options import GroundTruthOptions, SamplingOptions
+from hdpea.dataset.options import GroundTruthOptions
 from hdpea.geometry.sampling import sample_surface
 from hdpea.network.inference import PATCH_POINTS, canonical_order, predict_psi
 from hdpea.network.patches import cut_patches
@@ -67,7 +67,7 @@ def main(*, mesh: Path, weights: Path, points: int) -> None:
     """Compare the embedding of points of MESH in patches with that at once, and both with the truth."""
     vertices, faces = read_mesh(mesh)
     truth = embed_mesh(vertices, faces, GroundTruthOptions(vertices=points // POINTS_PER_VERTEX))
-    samples = sample_surface(truth.frame.to_unit(vertices), faces, SamplingOptions(points=points))
+    samples = sample_surface(truth.frame.to_unit(vertices), faces, points)
     surface = Surface.of(truth.frame, samples.points, samples.normals)
     true = distances(surface, truth.at(samples.points).psi)
     area = area_shown(samples.points, surface.neighbors)

@@ -18,6 +18,7 @@ from means_table import print_means
 from numpy.typing import NDArray
 from val_table import Sampled, load_metrics, meshes_of
 
+from hdpea.geometry.metric import ScaledMetric
 from hdpea.geometry.unit_frame import UnitFrame
 from hdpea.network.inference import predict_psi
 from hdpea.network.settling import settled
@@ -31,11 +32,11 @@ NORMAL_FACTOR = 0.2
 """Factor on the normals, in diagonals, where the direct embedding begins."""
 
 
-def from_normals(surface: Surface, spacing: float, rounds: int) -> NDArray[np.float64]:
+def from_normals(surface: Surface, spacing: float, metric: ScaledMetric, rounds: int) -> NDArray[np.float64]:
     """Return psi (n, 5) after so many rounds from where the direct embedding begins."""
     start = np.pad(NORMAL_FACTOR / spacing * surface.normals, ((0, 0), (0, 2)))
     points = surface.points_in_unit / spacing
-    return spacing * settled(points, surface.normals, surface.neighbors, start, rounds)
+    return spacing * settled(points, surface.normals, surface.neighbors, start, metric, rounds)
 
 
 @click.command()
@@ -60,7 +61,7 @@ def main(*, folder: Path, baselines: Path, meshes: str | None, vertices: int, we
                 if start == "network":
                     psi = predict_psi(network, points, surface.normals, surface.neighbors, spacing, rounds=rounds)
                 else:
-                    psi = from_normals(surface, spacing, rounds)
+                    psi = from_normals(surface, spacing, network.metric, rounds)
                 seconds = time.perf_counter() - began
                 mesh = mesh_of_embedding(surface, psi, vertices)
                 found = metrics.evaluate(frame.to_world(mesh.vertices_in_unit), mesh.faces, sampled.truth, sampled.seed)

@@ -62,7 +62,7 @@ def main(
     networks = []
     for name, (network, options) in rows.items():
         if options is None:
-            trained = PointTransformer(network)
+            trained = PointTransformer(network, samples.metric.of_clouds())
         else:
             folder = out / name.replace(" ", "_")
             folder.mkdir(parents=True, exist_ok=True)

@@ -7,7 +7,9 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
+
+from hdpea.runtime.lazy import lazy_names
 
 if TYPE_CHECKING:
     from hdpea.curvature.estimation import estimate_curvature as estimate_curvature
@@ -34,28 +36,18 @@ __all__ = [
     "write_mesh",
 ]
 
-_HOMES = {
-    "CurvatureOptions": "hdpea.curvature.options",
-    "CurvatureTensors": "hdpea.curvature.tensors",
-    "Embedding": "hdpea.embedding",
-    "Options": "hdpea.options",
-    "Reconstruction": "hdpea.reconstruction",
-    "embed_points": "hdpea.embedding",
-    "estimate_curvature": "hdpea.curvature.estimation",
-    "read_points": "hdpea.reading",
-    "reconstruct": "hdpea.reconstruction",
-    "write_mesh": "hdpea.writing.meshes",
-}
-
-
-def __getattr__(name: str) -> Any:
-    # Imported when first used: the command line must start without torch.
-    if name not in _HOMES:
-        raise AttributeError(f"module 'hdpea' has no attribute {name!r}")
-    from importlib import import_module
-
-    return getattr(import_module(_HOMES[name]), name)
-
-
-def __dir__() -> list[str]:
-    return __all__
+__getattr__, __dir__ = lazy_names(
+    __name__,
+    {
+        "CurvatureOptions": "hdpea.curvature.options",
+        "CurvatureTensors": "hdpea.curvature.tensors",
+        "Embedding": "hdpea.embedding",
+        "Options": "hdpea.options",
+        "Reconstruction": "hdpea.reconstruction",
+        "embed_points": "hdpea.embedding",
+        "estimate_curvature": "hdpea.curvature.estimation",
+        "read_points": "hdpea.reading",
+        "reconstruct": "hdpea.reconstruction",
+        "write_mesh": "hdpea.writing.meshes",
+    },
+)

@@ -11,12 +11,12 @@ from numpy.typing import NDArray
 
 from hdpea.benchmark.methods import Cloud
 from hdpea.benchmark.suite import SuiteInput
-from hdpea.dataset.building import seed_of
+from hdpea.dataset.build import seed_of
 from hdpea.dataset.degradation import degraded
-from hdpea.dataset.estimation import estimated_normals
-from hdpea.dataset.making import draw_points
+from hdpea.dataset.normal_estimation import estimated_normals
 from hdpea.dataset.options import DatasetOptions, SamplingOptions
 from hdpea.dataset.sample import Sample
+from hdpea.dataset.sample_generation import draw_points
 from hdpea.geometry.unit_frame import UnitFrame
 from hdpea.reading.triangle_mesh import TriangleMesh
 from hdpea.runtime.outputs import replacing

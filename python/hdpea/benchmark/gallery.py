@@ -9,9 +9,9 @@ from functools import partial
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from hdpea.benchmark.benchmarking import evenly, mesh_path, model_of, sources_of
 from hdpea.benchmark.model import Model
 from hdpea.benchmark.record import Record, file_name
+from hdpea.benchmark.run import evenly, mesh_path, model_of, sources_of
 from hdpea.benchmark.suite import Suite
 from hdpea.reading.triangle_mesh import read_triangle_mesh
 from hdpea.runtime.outputs import replacing
@@ -38,14 +38,14 @@ class Gallery:
 
 
 def draw_gallery(
-    suite: Suite, meshes: str, folder: Path, records: Sequence[Record], told: Callable[[str], None] = lambda _: None
+    suite: Suite, meshes: str, folder: Path, records: Sequence[Record], log: Callable[[str], None] = lambda _: None
 ) -> Gallery:
     """Draw the results of as many models as the suite says, in ``pictures/``; ``check_drawing`` first."""
     gallery = Gallery({}, {})
     if suite.options.pictures == 0:
         return gallery
     for source in evenly(sources_of(suite, meshes), suite.options.pictures):
-        told(f"drawing {source.name}")
+        log(f"drawing {source.name}")
         _draw_model(gallery, model_of(suite, source), folder, [each for each in records if each.model == source.name])
     return gallery
 

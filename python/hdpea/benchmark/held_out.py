@@ -9,11 +9,11 @@ from functools import cached_property
 import numpy as np
 
 from hdpea.benchmark.clouds import bare_sample, cloud_of
-from hdpea.benchmark.drawing import PointScene, Scene
 from hdpea.benchmark.methods import Cloud
 from hdpea.benchmark.model import Model
+from hdpea.benchmark.scene import PointScene, Scene
 from hdpea.benchmark.suite import HELD_OUT, SuiteInput
-from hdpea.dataset.building import seed_of
+from hdpea.dataset.build import seed_of
 from hdpea.dataset.degradation import degraded
 from hdpea.dataset.options import DegradationOptions
 from hdpea.errors import CannotReconstruct

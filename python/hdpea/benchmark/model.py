@@ -8,11 +8,11 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
-from hdpea.benchmark.drawing import Scene
 from hdpea.benchmark.methods import Cloud
+from hdpea.benchmark.scene import Scene
 from hdpea.benchmark.suite import SuiteInput, SuiteOptions
-from hdpea.dataset.sources import MeshSource
-from hdpea.evaluation.evaluating import evaluate
+from hdpea.dataset.sources import Source
+from hdpea.evaluation.evaluation import evaluate
 from hdpea.evaluation.options import EvaluationOptions
 from hdpea.evaluation.truth import Truth
 from hdpea.reading.triangle_mesh import TriangleMesh
@@ -22,7 +22,7 @@ from hdpea.reading.triangle_mesh import TriangleMesh
 class Model(ABC):
     """A model of a suite with these options; its file is read only if a run needs it, then once for all of them."""
 
-    source: MeshSource
+    source: Source
     options: SuiteOptions
 
     @property

@@ -8,13 +8,13 @@ from collections.abc import Iterator, Mapping, Sequence
 from html import escape
 from pathlib import Path
 
-from hdpea.benchmark.drawing import ERROR_COLORS, RED_FROM
 from hdpea.benchmark.gallery import Gallery
 from hdpea.benchmark.means import means_of
-from hdpea.benchmark.nearest import nearest_sentences
 from hdpea.benchmark.record import LARGEST, RMS, Record
+from hdpea.benchmark.scene import ERROR_COLORS, RED_FROM
 from hdpea.benchmark.suite import HELD_OUT, MESH, Suite
 from hdpea.benchmark.tables import cells_of, quoted_cells
+from hdpea.benchmark.winners import winner_sentences
 from hdpea.runtime.outputs import replacing
 
 STYLE = """
@@ -77,7 +77,7 @@ def _tables(suite: Suite, records: Sequence[Record]) -> Iterator[str]:
         for vertices in suite.options.vertices:
             yield f"<h2>{escape(given.name)}, {vertices:,} vertices</h2>"
             yield _table(*cells_of(means_of(records, suite, given.name, vertices)))
-            yield f'<p class="small">{escape(nearest_sentences(records, suite, given.name, vertices))}</p>'
+            yield f'<p class="small">{escape(winner_sentences(records, suite, given.name, vertices))}</p>'
 
 
 def _quoted(suite: Suite) -> Iterator[str]:

@@ -9,12 +9,12 @@ from pathlib import Path
 from hdpea.benchmark.curves import draw_curves
 from hdpea.benchmark.gallery import Gallery
 from hdpea.benchmark.means import COLUMNS, error_by_size, means_of
-from hdpea.benchmark.nearest import nearest_sentences
 from hdpea.benchmark.page import write_page
 from hdpea.benchmark.provenance import provenance
 from hdpea.benchmark.record import Record
 from hdpea.benchmark.suite import HELD_OUT, Suite
 from hdpea.benchmark.tables import markdown_table, quoted_table, write_csv
+from hdpea.benchmark.winners import winner_sentences
 from hdpea.evaluation.normalization import NORMALIZATIONS
 from hdpea.runtime.outputs import replacing
 
@@ -80,7 +80,7 @@ def results_in_markdown(suite: Suite, records: Sequence[Record], curves: dict[st
         for vertices in suite.options.vertices:
             parts.append(f"## {given.name}, {vertices:,} vertices")
             parts.append(markdown_table(means_of(records, suite, given.name, vertices)))
-            parts.append(nearest_sentences(records, suite, given.name, vertices))
+            parts.append(winner_sentences(records, suite, given.name, vertices))
     parts += [f"![{name}]({name}.svg)" for name in curves]
     if suite.quoted:
         parts += ["## Published elsewhere, on other data", quoted_table(suite.quoted)]

@@ -8,10 +8,10 @@ from functools import cached_property
 from typing import Any
 
 from hdpea.benchmark.clouds import make_cloud
-from hdpea.benchmark.drawing import Scene, SurfaceScene
 from hdpea.benchmark.methods import Cloud
 from hdpea.benchmark.model import Model
 from hdpea.benchmark.rendering import compare_renderings
+from hdpea.benchmark.scene import Scene, SurfaceScene
 from hdpea.benchmark.suite import SuiteInput
 from hdpea.dataset.surface_file import read_surface
 from hdpea.evaluation.truth import Truth, truth_of_mesh

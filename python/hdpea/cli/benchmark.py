@@ -50,9 +50,9 @@ def command(
     Each run has a process and a time limit of its own. What was finished before is kept: the same
     command continues a suite that was stopped. Rivals need pip install 'hdpea[benchmark]'.
     """
-    from hdpea.benchmark.benchmarking import run_suite
     from hdpea.benchmark.gallery import draw_gallery
     from hdpea.benchmark.results import write_results
+    from hdpea.benchmark.run import run_suite
     from hdpea.benchmark.suite_file import read_suite
     from hdpea.pictures.picture import check_drawing
 
@@ -63,12 +63,12 @@ def command(
     if wanted.options.pictures or wanted.options.rendered:
         check_drawing()
 
-    def told(line: str) -> None:
+    def log(line: str) -> None:
         if not quiet:
             click.echo(line, err=True)
 
-    records = run_suite(wanted, where, output, told)
-    write_results(output, wanted, records, draw_gallery(wanted, where, output, records, told))
-    told(f"{output / 'index.html'}: {len(records)} runs, {sum(bool(each.failed) for each in records)} failed")
+    records = run_suite(wanted, where, output, log)
+    write_results(output, wanted, records, draw_gallery(wanted, where, output, records, log))
+    log(f"{output / 'index.html'}: {len(records)} runs, {sum(bool(each.failed) for each in records)} failed")
     if all(each.failed for each in records):
         raise QualityMissed("Not one run gave a mesh.", f"The reasons are in {output / 'results.md'}.")

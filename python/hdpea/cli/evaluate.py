@@ -46,7 +46,7 @@ def command(result: Path, truth: Path, as_json: bool, **values: Any) -> None:
     be said. Lengths are given twice: as shares of the longest side of the truth's bounding box, as
     in the papers of NDC and PoNQ, and of its diagonal, as in that of NASM.
     """
-    from hdpea.evaluation.evaluating import evaluate
+    from hdpea.evaluation.evaluation import evaluate
     from hdpea.evaluation.table import describe
     from hdpea.evaluation.truth import read_truth
     from hdpea.options.settings import filled

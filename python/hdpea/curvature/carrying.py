@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from hdpea import _core
 from hdpea.curvature.tensors import Estimate
-from hdpea.embedding.embedded import Metric
+from hdpea.geometry.metric import Metric
 
 Rows = NDArray[np.float64]
 

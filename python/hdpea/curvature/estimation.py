@@ -19,8 +19,8 @@ from hdpea.curvature.options import (
 )
 from hdpea.curvature.tensors import CurvatureTensors, Estimate, metric_tensors
 from hdpea.embedding import embed_surface
-from hdpea.embedding.embedded import Metric
 from hdpea.errors import core_errors_translated
+from hdpea.geometry.metric import Metric
 from hdpea.geometry.thinning import thinned
 from hdpea.options import NormalOptions
 from hdpea.options.choice import Choice

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from hdpea import _core
 from hdpea.curvature.options import JET_NEIGHBORS, MOST_JET_NEIGHBORS
 from hdpea.curvature.tensors import Estimate
-from hdpea.embedding.embedded import Metric
+from hdpea.geometry.metric import Metric
 from hdpea.options.choice import Choice
 from hdpea.surface.surface import Surface
 

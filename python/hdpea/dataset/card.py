@@ -34,7 +34,7 @@ An NPZ file, arrays of float32, all in the unit frame of the mesh: centred, boun
 | centre_in_world, diagonal | (3,), () | float64; world = unit * diagonal + centre_in_world |
 | schema | () | version of this list |
 
-`hdpea.dataset.loading.Dataset` reads them, and turns and mirrors them on loading; `hdpea dataset show` draws one.
+`hdpea.dataset.Dataset` reads them, and turns and mirrors them on loading; `hdpea dataset show` draws one.
 
 ## How it was made
 

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hdpea import _core
-from hdpea.dataset.options import GroundTruthOptions, SamplingOptions
+from hdpea.dataset.options import GroundTruthOptions
 from hdpea.errors import CannotReconstruct, core_errors_translated
 from hdpea.geometry.sampling import sample_surface
 from hdpea.geometry.triangles import area_vectors, mesh_area
@@ -112,20 +112,18 @@ def embed_mesh(
     if total < LEAST_AREA:
         raise CannotReconstruct("The mesh has no area.", "Its faces are degenerate.")
     spacing = float(np.sqrt(total / options.vertices))
-    remeshing, solver = _core.RemeshingOptions(), _core.EmbeddingOptions()
+    metric = options.metric.at(spacing)
+    remeshing = _core.RemeshingOptions()
     remeshing.edge_length = options.remesh_length * spacing
-    solver.bending_length = options.bending_length * spacing
-    solver.metric_scale = options.metric_scale * spacing
-    solver.max_stretch = options.max_stretch
     with core_errors_translated():
         tell(progress, "remeshing", 0)
         mesh = _core.remesh_isotropically(given, faces, remeshing)
         normals = vertex_normals(mesh.vertices, mesh.faces)
         tell(progress, "curvature", 0)
-        curvature = _curvature_at(mesh.vertices, normals, given, faces, options.curvature_radius * spacing)
+        curvature = _curvature_at(mesh.vertices, normals, given, faces, metric.curvature_radius)
         whole = np.ones(len(mesh.faces))
         phase = of_phase(progress, "embedding")
-        psi = _core.solve_embedding(mesh.vertices, normals, curvature, mesh.faces, whole, solver, phase)
+        psi = _core.solve_embedding(mesh.vertices, normals, curvature, mesh.faces, whole, metric.solver(), phase)
     return EmbeddedMesh(mesh.vertices, mesh.faces, normals, psi, curvature.principal, curvature.direction1, frame)
 
 
@@ -137,7 +135,7 @@ def _curvature_at(
     radius: float,
 ) -> _core.Curvature:
     """Fit the curvature at `vertices` to samples of the given mesh, whose normals are true ones."""
-    samples = sample_surface(given, faces, SamplingOptions(points=CURVATURE_SAMPLES))
+    samples = sample_surface(given, faces, CURVATURE_SAMPLES)
     points = np.vstack([vertices, samples.points])
     all_normals = np.vstack([normals, samples.normals])
     nearest = len(vertices) + _core.nearest_neighbors(samples.points, vertices, CURVATURE_NEIGHBORS)

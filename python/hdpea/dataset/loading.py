@@ -8,11 +8,12 @@ from hashlib import sha256
 from pathlib import Path
 
 from hdpea.dataset.manifest import read_manifest
+from hdpea.dataset.manifest_options import options_from_manifest
 from hdpea.dataset.quality import spacing_of
-from hdpea.dataset.recorded_options import options_recorded
 from hdpea.dataset.sample import Sample
 from hdpea.dataset.sample_file import decoded
 from hdpea.errors import UnreadableInput, UsageError
+from hdpea.geometry.metric import ScaledMetric
 from hdpea.reading import read_bytes
 
 
@@ -40,6 +41,11 @@ class Dataset:
     def names(self) -> list[str]:
         """The names of the samples, in the order of the manifest."""
         return list(self._entries)
+
+    @property
+    def metric(self) -> ScaledMetric:
+        """The metric of the ground truth, in spacings, as the manifest records it."""
+        return options_from_manifest(self.manifest.options).ground_truth.metric
 
     def __len__(self) -> int:
         return len(self._entries)
@@ -78,7 +84,9 @@ class Dataset:
     def spacing(self, name: str) -> float:
         """Return the unit of the lengths in the ground truth's options for a sample, in unit length."""
         if name not in self._spacings:
-            self._spacings[name] = spacing_of(self.read(name), options_recorded(self.manifest.options).ground_truth)
+            self._spacings[name] = spacing_of(
+                self.read(name), options_from_manifest(self.manifest.options).ground_truth
+            )
         return self._spacings[name]
 
     def augmented(self) -> Iterator[Sample]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from hdpea.geometry.metric import BENDING_LENGTH, ScaledMetric
 from hdpea.options import Checked, option
 
 
@@ -20,9 +21,14 @@ class GroundTruthOptions(Checked):
     vertices: int = option(5_000, "vertices of the meshes that the embedding is meant for", minimum=4)
     remesh_length: float = option(0.5, "edge length of the triangles it is solved on, in spacings", minimum=0)
     curvature_radius: float = option(1.2, "radius in which curvature is measured, in spacings", minimum=0)
-    bending_length: float = option(0.6, "length below which it does not bend, in spacings", minimum=0)
+    bending_length: float = option(BENDING_LENGTH, "length below which it does not bend, in spacings", minimum=0)
     metric_scale: float = option(40.0, "c of the metric s^2 = c |k|, in spacings: larger stretches more", minimum=0)
     max_stretch: float = option(6.0, "largest stretch of the metric in any direction", minimum=1)
+
+    @property
+    def metric(self) -> ScaledMetric:
+        """The metric, in spacings."""
+        return ScaledMetric(self.metric_scale, self.max_stretch, self.bending_length, self.curvature_radius)
 
 
 @dataclass(frozen=True)
@@ -92,7 +98,7 @@ class SampleOptions(Checked):
 
 @dataclass(frozen=True)
 class DatasetOptions(Checked):
-    """Everything ``hdpea.dataset.building.build_dataset`` can be told; the manifest holds all but the run's own."""
+    """Everything ``hdpea.dataset.build.build_dataset`` can be told; the manifest holds all but the run's own."""
 
     sample: SampleOptions = SampleOptions()
     sampling: SamplingOptions = SamplingOptions()

@@ -44,8 +44,7 @@ def stretches(curvatures: NDArray[np.float32], options: GroundTruthOptions, spac
     spacing
         The unit of the lengths in `options`, in unit length.
     """
-    scaled = options.metric_scale * spacing * abs(curvatures.astype(np.float64))
-    return np.sqrt(np.clip(scaled, 1, options.max_stretch**2))
+    return options.metric.at(spacing).stretches(curvatures)
 
 
 def isometry_errors(sample: Sample, options: GroundTruthOptions, spacing: float) -> Rows:

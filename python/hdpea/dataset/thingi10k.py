@@ -6,11 +6,14 @@ from __future__ import annotations
 from importlib.util import find_spec
 from pathlib import Path
 
-from hdpea.dataset.sources import THINGI10K, UNSTATED, MeshSource
+from hdpea.dataset.sources import UNSTATED, Source
 from hdpea.errors import UnreadableInput, UsageError
 
+THINGI10K = "thingi10k:"
+"""What the name of a model begins with; its file ID follows."""
 
-def find_models(ids: str) -> list[MeshSource]:
+
+def find_models(ids: str) -> list[Source]:
     """Return the models of the given file IDs, such as ``34785,36371``, ordered by ID.
 
     Raises
@@ -42,7 +45,7 @@ def find_models(ids: str) -> list[MeshSource]:
             f"Thingi10K has no model {', '.join(map(str, missing))}.", "https://ten-thousand-models.appspot.com"
         )
     return [
-        MeshSource(
+        Source(
             name=f"thingi10k_{each}",
             source=f"{THINGI10K}{each}",
             path=Path(entries[each]["file_path"]),

@@ -8,18 +8,13 @@ from collections.abc import Callable
 import numpy as np
 
 from hdpea import _core
-from hdpea.embedding.embedded import Embedded, Metric
+from hdpea.embedding.embedded import Embedded
+from hdpea.geometry.metric import BENDING_LENGTH, CURVATURE_RADIUS, ScaledMetric
 from hdpea.options import EmbeddingOptions
 from hdpea.options.choice import Choice
 from hdpea.options.lengths import Length
 from hdpea.surface.surface import Surface
 from hdpea.surface.triangle_soup import triangle_soup
-
-BENDING_PER_SPACING = 0.6
-"""Bending length in spacings of the vertices to come: finer, and the tangent disks of neighbours disagree."""
-
-CURVATURE_PER_SPACING = 1.0
-"""Curvature radius in the same spacings: a little more than the embedding can follow."""
 
 
 def embed_directly(
@@ -43,12 +38,9 @@ def embed_directly(
         choices.append(Choice(name, chosen * surface.frame.diagonal, "world units", why))
         return chosen
 
-    solver = _core.EmbeddingOptions()
-    solver.bending_length = choose("bending_length", options.bending_length, BENDING_PER_SPACING)
-    solver.metric_scale = options.metric_scale
-    solver.max_stretch = options.max_stretch
-    radius = choose("curvature_radius", options.curvature_radius, CURVATURE_PER_SPACING)
-    curvature = _core.estimate_curvature(points, normals, surface.neighbors, radius)
-    psi = _core.solve_embedding(points, normals, curvature, soup.triangles, soup.weights, solver, progress)
-    metric = Metric(options.metric_scale, options.max_stretch)
+    bending_length = choose("bending_length", options.bending_length, BENDING_LENGTH)
+    curvature_radius = choose("curvature_radius", options.curvature_radius, CURVATURE_RADIUS)
+    metric = ScaledMetric(options.metric_scale, options.max_stretch, bending_length, curvature_radius)
+    curvature = _core.estimate_curvature(points, normals, surface.neighbors, metric.curvature_radius)
+    psi = _core.solve_embedding(points, normals, curvature, soup.triangles, soup.weights, metric.solver(), progress)
     return Embedded(np.hstack([points, psi]), tuple(choices), metric)

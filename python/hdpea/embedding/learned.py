@@ -9,8 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from hdpea import _core
-from hdpea.dataset.options import GroundTruthOptions
-from hdpea.embedding.embedded import Embedded, Metric
+from hdpea.embedding.embedded import Embedded
 from hdpea.geometry.thinning import thinned
 from hdpea.options import EmbeddingOptions
 from hdpea.options.choice import Choice
@@ -57,6 +56,4 @@ def embed_learned(
             "metric_spacing", spacing * surface.frame.diagonal, "world units", f"that of {round(shown):,} particles"
         ),
     )
-    truth = GroundTruthOptions()  # what networks are trained on, unless its options are changed
-    metric = Metric(truth.metric_scale * spacing, truth.max_stretch)
-    return Embedded(np.hstack([surface.points_in_unit, psi]), choices, metric)
+    return Embedded(np.hstack([surface.points_in_unit, psi]), choices, network.metric.at(spacing))

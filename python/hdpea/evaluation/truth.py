@@ -9,12 +9,11 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from hdpea.dataset.options import SamplingOptions
 from hdpea.errors import CannotReconstruct, core_errors_translated
 from hdpea.evaluation.curvature_metric import SAMPLES, CurvatureMetric, curvature_metric
 from hdpea.evaluation.distances import SampleDistances, distances_between
 from hdpea.evaluation.options import EvaluationOptions
-from hdpea.geometry.sampling import SurfaceSamples, sample_surface
+from hdpea.geometry.sampling import sample_surface
 from hdpea.geometry.triangles import mesh_area
 from hdpea.reading import read_points
 from hdpea.reading.triangle_mesh import SURFACE_FORMATS, TriangleMesh, parse_triangle_mesh, read_triangle_mesh
@@ -64,11 +63,6 @@ def seeds(options: EvaluationOptions) -> tuple[int, ...]:
     return tuple(int(each) for each in np.random.SeedSequence(options.seed).generate_state(4))
 
 
-def draw(surface: TriangleMesh, count: int, seed: int) -> SurfaceSamples:
-    """Return samples of a mesh, uniform by area."""
-    return sample_surface(*surface, SamplingOptions(points=count, seed=seed))
-
-
 def truth_of_mesh(vertices_in_world: Rows, faces: NDArray[np.int64], options: EvaluationOptions | None = None) -> Truth:
     """Prepare a mesh (v, 3), (f, 3), open or closed, every vertex of which has a face.
 
@@ -82,8 +76,8 @@ def truth_of_mesh(vertices_in_world: Rows, faces: NDArray[np.int64], options: Ev
     surface = (vertices_in_world - centre) / longest, faces
     of_truth, of_floor, of_metric, _ = seeds(options)
     with core_errors_translated():
-        samples, others = (draw(surface, options.samples, seed) for seed in (of_truth, of_floor))
-        shape = draw(surface, SAMPLES, of_metric)
+        samples, others = (sample_surface(*surface, options.samples, seed=seed) for seed in (of_truth, of_floor))
+        shape = sample_surface(*surface, SAMPLES, seed=of_metric)
         metric = curvature_metric(shape.points, shape.normals, mesh_area(*surface))
         floor = distances_between(samples.points, samples.normals, others.points, others.normals)
     return Truth(centre, longest, diagonal, samples.points, samples.normals, surface, metric, floor, options)

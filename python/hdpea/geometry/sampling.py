@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Points of a mesh: even by area, or each as far from the others as can be."""
+"""Points drawn from a mesh: uniformly by area, or each as far from the others as possible."""
 
 from __future__ import annotations
 
@@ -9,12 +9,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hdpea import _core
-from hdpea.dataset.options import SamplingOptions
-from hdpea.errors import CannotReconstruct, core_errors_translated
+from hdpea.errors import CannotReconstruct, UsageError, core_errors_translated
 from hdpea.geometry.triangles import area_vectors
 
+METHODS = ("area", "farthest")
+"""Uniform by area, or each point far from the others."""
+
 OVERSAMPLING = 4
-"""Points by area for every point that farthest-point sampling keeps: 2 leave the spacing less even."""
+"""Points drawn by area for every point that farthest-point sampling keeps; with 2 the spacing is less even."""
 
 
 @dataclass(frozen=True)
@@ -38,25 +40,33 @@ class SurfaceSamples:
 
 
 def sample_surface(
-    vertices: NDArray[np.float64], faces: NDArray[np.int64], options: SamplingOptions | None = None
+    vertices: NDArray[np.float64], faces: NDArray[np.int64], count: int, *, method: str = "area", seed: int = 0
 ) -> SurfaceSamples:
-    """Draw points of the mesh `vertices` (v, 3), `faces` (f, 3), the same for the same seed.
+    """Draw `count` points from the mesh `vertices` (v, 3), `faces` (f, 3), the same for the same seed.
 
-    Faces without area get no points, and of faces with the same corners only the first does. Points by the method
-    ``farthest`` come in the order of their choice, so any first part of them is spread out too.
+    Faces without area get no points, and of several faces with the same corners only the first does.
+
+    Parameters
+    ----------
+    method
+        ``area``: uniformly at random by area. ``farthest``: farthest-point sampling of four times as many such
+        points, in the order in which they are chosen, so that any leading part of them is spread out too.
 
     Raises
     ------
+    UsageError
+        If `count` is less than 1, or there is no such method.
     CannotReconstruct
         If the mesh has no area.
     """
-    options = options or SamplingOptions()
-    rng = np.random.default_rng(options.seed)
-    if options.method == "area":
-        return _uniform_by_area(vertices, faces, options.points, rng)
-    many = _uniform_by_area(vertices, faces, OVERSAMPLING * options.points, rng)
+    if count < 1 or method not in METHODS:
+        raise UsageError(f"Cannot draw {count} points by the method {method!r}.", f"Methods are {', '.join(METHODS)}.")
+    rng = np.random.default_rng(seed)
+    if method == "area":
+        return _uniform_by_area(vertices, faces, count, rng)
+    many = _uniform_by_area(vertices, faces, OVERSAMPLING * count, rng)
     with core_errors_translated():
-        kept = _core.farthest_point_sampling(many.points, options.points)
+        kept = _core.farthest_point_sampling(many.points, count)
     return SurfaceSamples(many.points[kept], many.normals[kept], many.faces[kept], many.barycentric[kept])
 
 
@@ -85,7 +95,7 @@ def _uniform_by_area(
     _, distinct = np.unique(np.sort(faces, axis=1), axis=0, return_index=True)
     candidates = np.sort(distinct[areas[distinct] > 0])
     if not len(candidates):
-        raise CannotReconstruct("The mesh has no area.", "Points can be drawn of faces that are more than lines.")
+        raise CannotReconstruct("The mesh has no area.", "Points are drawn only from faces that are more than lines.")
     upto = np.cumsum(areas[candidates])
     drawn = np.searchsorted(upto, rng.random(count) * upto[-1])
     chosen = candidates[np.minimum(drawn, len(candidates) - 1)]  # rounding may step past the last

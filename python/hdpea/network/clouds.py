@@ -12,9 +12,7 @@ from numpy.typing import NDArray
 from torch import Tensor
 
 from hdpea import _core
-
-CURVATURE_RADIUS = 1.0
-"""Radius in which the shape operator is fitted, in spacings; as wide as that of the direct embedding."""
+from hdpea.geometry.metric import CURVATURE_RADIUS
 
 
 @dataclass
@@ -42,7 +40,13 @@ class Clouds:
     batch: Tensor
 
     @classmethod
-    def of(cls, points: NDArray[np.float64], normals: NDArray[np.float64], neighbors: NDArray[np.int64]) -> Clouds:
+    def of(
+        cls,
+        points: NDArray[np.float64],
+        normals: NDArray[np.float64],
+        neighbors: NDArray[np.int64],
+        curvature_radius: float = CURVATURE_RADIUS,
+    ) -> Clouds:
         """Return one cloud as a batch.
 
         Parameters
@@ -53,12 +57,14 @@ class Clouds:
             (n, 3), unit, consistently oriented.
         neighbors
             (n, k): nearest points of the same sheet, nearest first, -1 pads.
+        curvature_radius
+            In which the shape operator is fitted, in spacings.
         """
         centred = centred_points(points)
         return cls(
             torch.from_numpy(centred.astype(np.float32)),
             torch.from_numpy(normals.astype(np.float32)),
-            torch.from_numpy(shape_operators(centred, normals, neighbors).astype(np.float32)),
+            torch.from_numpy(shape_operators(centred, normals, neighbors, curvature_radius).astype(np.float32)),
             torch.from_numpy(neighbors),
             torch.zeros(len(points), dtype=torch.int64),
         )
@@ -93,10 +99,13 @@ def centred_points(points: NDArray[np.floating]) -> NDArray[np.float64]:
 
 
 def shape_operators(
-    points: NDArray[np.float64], normals: NDArray[np.float64], neighbors: NDArray[np.int64]
+    points: NDArray[np.float64],
+    normals: NDArray[np.float64],
+    neighbors: NDArray[np.int64],
+    radius: float = CURVATURE_RADIUS,
 ) -> NDArray[np.float64]:
-    """Return the shape operator (n, 6) of a cloud as ``Clouds.shape``, fitted within ``CURVATURE_RADIUS``."""
-    curvature = _core.estimate_curvature(points, normals, neighbors, CURVATURE_RADIUS)
+    """Return the shape operator (n, 6) of a cloud as ``Clouds.shape``, fitted within `radius` spacings."""
+    curvature = _core.estimate_curvature(points, normals, neighbors, radius)
     first = curvature.direction1
     second = np.cross(normals, first)
     k1, k2 = curvature.principal.T[:, :, None]

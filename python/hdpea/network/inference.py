@@ -97,13 +97,13 @@ class _Cloud:
 
 
 def _embedded(network: PointTransformer, cloud: _Cloud, rounds: int) -> Array:
-    clouds = Clouds.of(cloud.points, cloud.normals, cloud.neighbors)
+    clouds = Clouds.of(cloud.points, cloud.normals, cloud.neighbors, network.metric.curvature_radius)
     was_training = network.training
     network.eval()
     with torch.no_grad():
         psi = network(clouds.to(next(network.parameters()).device)).cpu().numpy()
     network.train(was_training)
-    return settled(cloud.points, cloud.normals, cloud.neighbors, psi.astype(np.float64), rounds)
+    return settled(cloud.points, cloud.normals, cloud.neighbors, psi.astype(np.float64), network.metric, rounds)
 
 
 def _in_patches(network: PointTransformer, cloud: _Cloud, rounds: int, progress: Callable[[float], bool]) -> Array:

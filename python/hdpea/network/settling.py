@@ -11,18 +11,24 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hdpea import _core
-from hdpea.dataset.options import GroundTruthOptions
-from hdpea.network.clouds import CURVATURE_RADIUS
+from hdpea.geometry.metric import ScaledMetric
 from hdpea.surface.triangle_soup import triangle_soup
 
 ROUNDS = 8
-"""Local/global iterations; ``benchmarks/settling_table.py`` compares other numbers."""
+"""Default number of local/global iterations; ``benchmarks/settling_table.py`` compares other numbers."""
 
 Array = NDArray[np.float64]
 
 
-def settled(points: Array, normals: Array, neighbors: NDArray[np.int64], psi: Array, rounds: int = ROUNDS) -> Array:
-    """Return psi (n, 5), smooth and nearer to the metric that networks are trained on.
+def settled(
+    points: Array,
+    normals: Array,
+    neighbors: NDArray[np.int64],
+    psi: Array,
+    metric: ScaledMetric,
+    rounds: int = ROUNDS,
+) -> Array:
+    """Return psi (n, 5), smoother and closer to isometric under the metric.
 
     Parameters
     ----------
@@ -34,15 +40,15 @@ def settled(points: Array, normals: Array, neighbors: NDArray[np.int64], psi: Ar
         (n, k): nearest points of the same sheet, nearest first, -1 pads.
     psi
         (n, 5), in spacings.
+    metric
+        The one that the network was trained on, in spacings.
     rounds
         Of the solver.
     """
     if not rounds:
         return psi
-    truth = GroundTruthOptions()  # what networks are trained on, unless its options are changed
-    solver = _core.EmbeddingOptions()
-    solver.metric_scale, solver.max_stretch = truth.metric_scale, truth.max_stretch
-    solver.bending_length, solver.iterations = truth.bending_length, rounds
+    solver = metric.solver()
+    solver.iterations = rounds
     soup = triangle_soup(points, normals, neighbors)
-    curvature = _core.estimate_curvature(points, normals, neighbors, CURVATURE_RADIUS)
+    curvature = _core.estimate_curvature(points, normals, neighbors, metric.curvature_radius)
     return _core.solve_embedding(points, normals, curvature, soup.triangles, soup.weights, solver, initial=psi)

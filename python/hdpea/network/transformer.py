@@ -6,6 +6,7 @@ from __future__ import annotations
 import torch
 from torch import Tensor, nn
 
+from hdpea.geometry.metric import ScaledMetric
 from hdpea.network.averaging import Neighborhoods, averaged
 from hdpea.network.clouds import Clouds
 from hdpea.network.curves import CURVES
@@ -38,11 +39,18 @@ class PointTransformer(nn.Module):
 
     It sees no coordinates but those relative to a neighbour or a voxel, so a crop looks the same wherever it is
     cut from. Weights start from ``options.seed`` and nothing else.
+
+    Attributes
+    ----------
+    options
+        The shape of the network.
+    metric
+        The metric that it is trained on, in spacings. The layers do not depend on it; whoever uses psi does.
     """
 
-    def __init__(self, options: NetworkOptions) -> None:
+    def __init__(self, options: NetworkOptions, metric: ScaledMetric) -> None:
         super().__init__()
-        self.options = options
+        self.options, self.metric = options, metric
         with torch.random.fork_rng(devices=[]):
             torch.manual_seed(options.seed)
             self._build(options)

@@ -13,14 +13,16 @@ from typing import Any
 import torch
 from torch import Tensor
 
-from hdpea.errors import UnreadableInput
+from hdpea.errors import UnreadableInput, UsageError
+from hdpea.geometry.metric import ScaledMetric
 from hdpea.network.options import NetworkOptions
 from hdpea.network.transformer import PointTransformer
+from hdpea.network.weights import UNRECORDED_METRIC, network_of_state
 from hdpea.runtime.outputs import replacing
 from hdpea.training.options import CropOptions, LossOptions, TrainingOptions
 
 FORMAT = 1
-"""Counts up whenever what is kept changes."""
+"""Counts up whenever what is stored changes so that it cannot be read as before."""
 
 
 @dataclass
@@ -34,6 +36,8 @@ class Checkpoint:
     ----------
     network, training
         The options.
+    metric
+        The metric of the samples, in spacings.
     step
         Steps done.
     weights, averaged
@@ -46,6 +50,7 @@ class Checkpoint:
 
     network: NetworkOptions
     training: TrainingOptions
+    metric: ScaledMetric
     step: int
     weights: dict[str, Tensor]
     averaged: dict[str, Tensor]
@@ -55,7 +60,8 @@ class Checkpoint:
     def write(self, path: Path) -> None:
         """Write the checkpoint, whole or not at all."""
         content = {each.name: getattr(self, each.name) for each in fields(self)}
-        content |= {"format": FORMAT, "network": asdict(self.network), "training": asdict(self.training)}
+        options = {name: asdict(content[name]) for name in ("network", "training", "metric")}
+        content |= {"format": FORMAT} | options
         with replacing(path) as partial:
             torch.save(content, partial)
 
@@ -66,7 +72,8 @@ class Checkpoint:
         Raises
         ------
         UnreadableInput
-            If it is missing, truncated, or no checkpoint of this version.
+            If it is missing, truncated, no checkpoint of this version, or its options or metric are out of range.
+            A checkpoint that records no metric, as older ones, is read with ``UNRECORDED_METRIC``.
         """
         hint = "A checkpoint is a file that `hdpea train` wrote."
         broken = f"{path} is truncated, or no checkpoint."
@@ -87,24 +94,29 @@ class Checkpoint:
                 f"{path} is a checkpoint of format {content['format']}, not {FORMAT}.", "Another version wrote it."
             )
         try:
-            rest = {each.name: content[each.name] for each in fields(cls)}
-            rest |= {"network": _network_options(rest["network"]), "training": _training_options(rest["training"])}
-        except (KeyError, TypeError) as error:
+            rest = {each.name: content[each.name] for each in fields(cls) if each.name != "metric"}
+            rest |= {
+                "network": NetworkOptions.of_record(rest["network"]),
+                "training": _training_options(rest["training"]),
+                "metric": ScaledMetric.of_record(content["metric"]) if "metric" in content else UNRECORDED_METRIC,
+            }
+            for state in (rest["weights"], rest["averaged"]):
+                if not isinstance(state, Mapping) or not all(isinstance(each, Tensor) for each in state.values()):
+                    raise ValueError("weights")
+        except (KeyError, TypeError, ValueError, UsageError) as error:
             raise UnreadableInput(f"{path} is a checkpoint with parts missing or unknown: {error}.", hint) from error
         return cls(**rest)
 
     def build(self, averaged: bool = True) -> PointTransformer:
         """Return the network with its averaged weights, or with the last."""
-        network = PointTransformer(self.network)
+        state = self.averaged if averaged else self.weights
+        # Copied, since a training goes on to change its own.
+        copied = {name: each.detach().to("cpu", copy=True) for name, each in state.items()}
         try:
-            network.load_state_dict(self.averaged if averaged else self.weights)
-        except RuntimeError as error:
-            raise UnreadableInput("The checkpoint's weights do not fit its network.") from error
+            network = network_of_state(self.network, self.metric, copied)
+        except ValueError as error:
+            raise UnreadableInput(f"The checkpoint's weights {error}.") from error
         return network.eval()
-
-
-def _network_options(values: Mapping[str, Any]) -> NetworkOptions:
-    return NetworkOptions(**values)
 
 
 def _training_options(values: Mapping[str, Any]) -> TrainingOptions:

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from hdpea import _core
 from hdpea.dataset.augmentation import TRANSFORMS, random_rotation
 from hdpea.dataset.sample import Sample
+from hdpea.geometry.metric import ScaledMetric
 from hdpea.network.clouds import Clouds
 from hdpea.training.losses import Truth
 from hdpea.training.options import CropOptions
@@ -28,6 +29,10 @@ class Samples(Protocol):
     @property
     def names(self) -> Sequence[str]:
         """The samples, in an order that stays."""
+
+    @property
+    def metric(self) -> ScaledMetric:
+        """The metric of their ground truth, in spacings."""
 
     def read(self, name: str) -> Sample:
         """Read one."""

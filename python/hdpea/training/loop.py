@@ -13,6 +13,7 @@ from hdpea.network.options import NetworkOptions
 from hdpea.runtime.threads import limited_threads
 from hdpea.training.checkpoint import Checkpoint
 from hdpea.training.crops import Crop, Samples
+from hdpea.training.joined import require_same_metric
 from hdpea.training.journal import LAST, Journal
 from hdpea.training.options import TrainingOptions
 from hdpea.training.steps import Training
@@ -46,7 +47,18 @@ def train(
         Whether to write for TensorBoard too.
     tell
         Is given each line of the journal.
+
+    Raises
+    ------
+    UsageError
+        If the validation set has another metric than the samples, or a checkpoint in `out` is of other options.
+    UnreadableInput
+        If that checkpoint cannot be read.
+    Interrupted
+        If `stopped` asked for it.
     """
+    if validation is not None:
+        require_same_metric(samples, validation, "the validation set")
     with limited_threads(options.threads):
         training = Training(samples, network, options, workers)
         if (out / LAST).exists():

@@ -34,7 +34,10 @@ class Training:
             raise UsageError("There is nothing to train on: the dataset has no samples.")
         if options.batch % self.workers.count:
             raise UsageError(f"A batch of {options.batch} cannot be shared evenly by {self.workers.count} processes.")
-        self.network = PointTransformer(network).train().to(self.workers.device)
+        self.metric = samples.metric.of_clouds()
+        if not self.metric.scale > 0:
+            raise UsageError("There is nothing to learn: the samples' metric has a scale of 0 and stretches nothing.")
+        self.network = PointTransformer(network, self.metric).train().to(self.workers.device)
         self.shared = self.workers.share(self.network)
         self.averaged = {name: value.clone() for name, value in self.network.state_dict().items()}
         self.optimizer = torch.optim.AdamW(
@@ -50,8 +53,13 @@ class Training:
         Raises
         ------
         UsageError
-            If its options are others.
+            If its options, or the metric of its samples, are others.
         """
+        if checkpoint.metric != self.metric:
+            raise UsageError(
+                "The checkpoint was trained on samples of another metric.",
+                "Use a dataset that was built with the same ground truth, or another folder.",
+            )
         same_length = replace(checkpoint.training, steps=self.options.steps, epochs=self.options.epochs)
         if checkpoint.network != self.network.options or same_length != self.options:
             raise UsageError(
@@ -66,7 +74,9 @@ class Training:
     def checkpoint(self) -> Checkpoint:
         """Return the state, for writing at once: it is not copied."""
         weights, optimizer = self.network.state_dict(), self.optimizer.state_dict()
-        return Checkpoint(self.network.options, self.options, self.step, weights, self.averaged, optimizer, self.best)
+        return Checkpoint(
+            self.network.options, self.options, self.metric, self.step, weights, self.averaged, optimizer, self.best
+        )
 
     def crop(self, step: int) -> Crop:
         """Return this process's crops of a step."""

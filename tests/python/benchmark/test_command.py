@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from hdpea.benchmark.methods import Cloud
-from hdpea.benchmark.running import Task, work
+from hdpea.benchmark.worker import Task, run_method
 from hdpea.errors import CannotReconstruct, UsageError
 
 PROGRAM = """
@@ -39,7 +39,7 @@ def task(cloud: Cloud, run: str, folder: Path) -> Task:
 
 def test_a_program_makes_the_mesh(cloud: Cloud, tmp_path: Path) -> None:
     (tmp_path / "program.py").write_text(PROGRAM)
-    made = work(task(cloud, "{python} program.py {points} {mesh} {vertices}", tmp_path))
+    made = run_method(task(cloud, "{python} program.py {points} {mesh} {vertices}", tmp_path))
     np.testing.assert_allclose(made.mesh[0], cloud.points[:5], atol=1e-6)
     assert made.mesh[1].tolist() == [[0, 1, 2], [0, 2, 3], [0, 3, 4]]
     assert 0.05 < made.cpu_seconds < 10 * made.seconds
@@ -48,7 +48,7 @@ def test_a_program_makes_the_mesh(cloud: Cloud, tmp_path: Path) -> None:
 
 def test_a_program_that_is_missing_is_told(cloud: Cloud, tmp_path: Path) -> None:
     with pytest.raises(UsageError, match="Cannot run no-such-program: No such file"):
-        work(task(cloud, "no-such-program {points} {mesh}", tmp_path))
+        run_method(task(cloud, "no-such-program {points} {mesh}", tmp_path))
 
 
 @pytest.mark.parametrize(
@@ -63,5 +63,5 @@ def test_a_program_that_is_missing_is_told(cloud: Cloud, tmp_path: Path) -> None
 )
 def test_what_a_program_says_when_it_fails_is_told(run: str, said: str, cloud: Cloud, tmp_path: Path) -> None:
     with pytest.raises(CannotReconstruct, match="made no mesh") as caught:
-        work(task(cloud, run, tmp_path))
+        run_method(task(cloud, run, tmp_path))
     assert said in caught.value.message

@@ -13,15 +13,15 @@ import trimesh
 from helpers import clouds
 from numpy.typing import NDArray
 
-from hdpea.benchmark.drawing import LIGHT, PointScene, shades
 from hdpea.benchmark.held_out import HeldOut, halves_of, make_cloud_of_points
 from hdpea.benchmark.methods import Cloud, method_options
-from hdpea.benchmark.running import Task, work
+from hdpea.benchmark.scene import LIGHT, PointScene, shades
 from hdpea.benchmark.suite import HELD_OUT, SuiteInput, SuiteOptions
 from hdpea.benchmark.true_surface import TrueSurface
+from hdpea.benchmark.worker import Task, run_method
 from hdpea.cli import run
 from hdpea.dataset.options import DegradationOptions, SampleOptions, ScanOptions
-from hdpea.dataset.sources import MeshSource
+from hdpea.dataset.sources import Source
 from hdpea.errors import CannotReconstruct, UsageError
 from hdpea.reading.cloud import PointCloud
 from hdpea.writing.meshes import point_ply
@@ -29,20 +29,20 @@ from hdpea.writing.meshes import point_ply
 Array = NDArray[np.float64]
 
 
-def written(path: Path, points: Array, normals: Array | None = None) -> MeshSource:
+def written(path: Path, points: Array, normals: Array | None = None) -> Source:
     path.parent.mkdir(exist_ok=True)
     if normals is None:
         np.savetxt(path, points)
     else:
         path.write_bytes(point_ply(points, normals, {}))
-    return MeshSource(path.stem, path.name, path)
+    return Source(path.stem, path.name, path)
 
 
 def asked(points: int = 10_000, estimate: bool = False, **degradation: float) -> SuiteInput:
     return SuiteInput("x", SampleOptions(estimate=estimate), ScanOptions(points), DegradationOptions(**degradation))
 
 
-def model(source: MeshSource, seed: int = 0) -> HeldOut:
+def model(source: Source, seed: int = 0) -> HeldOut:
     return HeldOut(source, SuiteOptions(truth=HELD_OUT, seed=seed, samples=2000))
 
 
@@ -262,7 +262,7 @@ def test_a_trimmed_poisson_surface_stays_near_the_points(tmp_path: Path) -> None
     for trim in (0.0, 1.0):
         values = {"depth": 6, "reduce": "none", "trim": trim}
         method_options("poisson", values)
-        made[trim] = work(Task(Cloud(points, normals, "bowl", "x"), "poisson", values, 100, tmp_path)).mesh
+        made[trim] = run_method(Task(Cloud(points, normals, "bowl", "x"), "poisson", values, 100, tmp_path)).mesh
     assert between(made[0.0][0], points).max() > 0.3  # the lid
     assert between(made[1.0][0], points).max() < 0.15
     assert between(points, made[1.0][0]).max() < 0.15  # nothing else is lost

@@ -18,14 +18,14 @@ import trimesh
 
 from hdpea.benchmark import provenance as provenance_module
 from hdpea.benchmark.curves import draw_curves
-from hdpea.benchmark.drawing import ERROR_COLORS, RED_FROM, error_colors, subdivided
 from hdpea.benchmark.means import COLUMNS, FLOOR, best_of, error_by_size, means_of
-from hdpea.benchmark.nearest import nearest_sentences
 from hdpea.benchmark.provenance import commit
 from hdpea.benchmark.record import RMS, Record, key_of, read_record, write_record
 from hdpea.benchmark.results import curves_of, results_in_markdown
+from hdpea.benchmark.scene import ERROR_COLORS, RED_FROM, error_colors, subdivided
 from hdpea.benchmark.suite import HELD_OUT, Quoted, Suite, SuiteInput, SuiteMethod, SuiteOptions
 from hdpea.benchmark.tables import markdown_table, write_csv
+from hdpea.benchmark.winners import winner_sentences
 from hdpea.dataset.options import DegradationOptions, SampleOptions, ScanOptions
 from hdpea.geometry.triangles import mesh_area
 from hdpea.version import version
@@ -92,12 +92,12 @@ def test_the_best_are_bold_and_ties_are_not() -> None:
 def test_who_is_nearest_on_which_model_is_told() -> None:
     records = [*RECORDS[:3], record("b", "theirs", 8e-5)]
     told = "Smallest exact CD: ours on a; theirs on b. Smallest exact HD: ours on a, b."
-    assert nearest_sentences(records, SUITE, "clean", 100) == told
-    told = nearest_sentences(RECORDS, SUITE, "clean", 100)
+    assert winner_sentences(records, SUITE, "clean", 100) == told
+    told = winner_sentences(RECORDS, SUITE, "clean", 100)
     assert told.startswith("Smallest exact CD: ours on a, b.")  # theirs failed on b
-    assert nearest_sentences(RECORDS, SUITE, "clean", 1000) == ""  # nobody to compare with
+    assert winner_sentences(RECORDS, SUITE, "clean", 1000) == ""  # nobody to compare with
     many = [record(str(i), name, error) for i in range(9) for name, error in (("ours", 2e-5), ("theirs", 1e-5))]
-    assert nearest_sentences(many, SUITE, "clean", 100).startswith("Smallest exact CD: theirs on 9 models.")
+    assert winner_sentences(many, SUITE, "clean", 100).startswith("Smallest exact CD: theirs on 9 models.")
 
 
 def to_points(model: str, method: str, rms: float, chamfer: float, vertices: int = 100) -> Record:
@@ -123,7 +123,7 @@ def test_where_the_truth_is_points_their_distances_are_shown_and_ranked_by() -> 
     assert "| 99 | **0.100** | **1.000** | 9.000 |" in ours
     assert "| 99 | 0.200 | 2.000 | **8.000** |" in theirs
     assert (
-        nearest_sentences(TO_POINTS, SUITE, "clean", 100) == "Smallest exact rms: ours on a. Smallest CD: theirs on a."
+        winner_sentences(TO_POINTS, SUITE, "clean", 100) == "Smallest exact rms: ours on a. Smallest CD: theirs on a."
     )
     assert list(curves_of(SUITE, TO_POINTS)) == ["curves-1-rms", "curves-1-max"]
     assert TO_POINTS[0].score(*RMS) == 1e-3
@@ -135,7 +135,7 @@ def test_where_the_surface_is_known_one_way_is_not_shown() -> None:
     table = markdown_table(means_of(both, SUITE, "clean", 100))
     assert "exact CD" in table
     assert "rms" not in table
-    assert "rms" not in nearest_sentences(both, SUITE, "clean", 100)
+    assert "rms" not in winner_sentences(both, SUITE, "clean", 100)
     assert not [name for name in curves_of(SUITE, both) if "rms" in name]
 
 

@@ -12,7 +12,7 @@ import pytest
 from hdpea.benchmark import methods
 from hdpea.benchmark.suite_file import read_suite, shipped_suites
 from hdpea.cli.benchmark import command
-from hdpea.dataset.sources import find_meshes
+from hdpea.dataset.discovery import find_meshes
 from hdpea.dataset.surface_file import read_surface
 from hdpea.errors import UnreadableInput, UsageError
 from hdpea.options.lengths import Length

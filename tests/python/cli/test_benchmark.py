@@ -13,17 +13,16 @@ from pathlib import Path
 import numpy as np
 import pytest
 import trimesh
-from helpers.networks import TINY
+from helpers.networks import TINY, network_of
 
-from hdpea.benchmark.benchmarking import evenly
 from hdpea.benchmark.clouds import make_cloud
 from hdpea.benchmark.methods import Cloud, method_options
-from hdpea.benchmark.running import Task, work
+from hdpea.benchmark.run import evenly
 from hdpea.benchmark.suite import SuiteInput
+from hdpea.benchmark.worker import Task, run_method
 from hdpea.cli import run
 from hdpea.dataset.options import DegradationOptions, SampleOptions, ScanOptions
 from hdpea.errors import UsageError
-from hdpea.network.transformer import PointTransformer
 from hdpea.network.weights import write_weights
 from hdpea.reading import read_points
 from hdpea.reading.triangle_mesh import TriangleMesh
@@ -111,7 +110,7 @@ def test_new_weights_are_run_anew(suite: Path, tmp_path: Path, capsys: Capture) 
     suite.write_text(suite.read_text().split('method = "folder"')[0] + other)
     arguments = ["benchmark", str(suite), str(tmp_path / "out"), "--models", "1"]
     for seed in (0, 1):
-        write_weights(weights, PointTransformer(replace(TINY, seed=seed)))
+        write_weights(weights, network_of(replace(TINY, seed=seed)))
         assert run(arguments) == 0
         assert "is there already" not in told(capsys)[0]
     assert run(arguments) == 0
@@ -214,7 +213,7 @@ def test_methods_make_meshes_of_the_wanted_size(
     pytest.importorskip(library)
     pytest.importorskip("pymeshlab" if method in ("poisson", "ball_pivoting") else library)
     method_options(method, values)
-    made = work(Task(cloud_of(), method, values, 200, tmp_path))
+    made = run_method(Task(cloud_of(), method, values, 200, tmp_path))
     vertices, faces = made.mesh
     # mmgs takes a metric and not a number of vertices, and answers in steps.
     assert len(vertices) == pytest.approx(200, rel=0.05 if library == "mmgpy" else 0.02)

@@ -25,7 +25,7 @@ Failed = Callable[..., str]
 
 @pytest.fixture
 def _stand_in(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("hdpea.dataset.building.make_samples", dataset_standins.make_samples)
+    monkeypatch.setattr("hdpea.dataset.build.make_samples", dataset_standins.make_samples)
 
 
 def build(meshes: Path, output: Path, *flags: str) -> list[str]:
@@ -162,7 +162,7 @@ def test_a_sample_is_drawn(tmp_path: Path) -> None:
 
 
 def test_a_manifest_records_what_was_asked_for(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("hdpea.dataset.building.make_samples", dataset_standins.make_samples)
+    monkeypatch.setattr("hdpea.dataset.build.make_samples", dataset_standins.make_samples)
     meshes = write_meshes(tmp_path / "meshes", "a")
     flags = ["--points", "60", "--kind", "scan", "--views", "3", "--remesh-length", "2%", "--estimate", "--augmented"]
     assert run(build(meshes, tmp_path / "out", *flags, "--quiet")) == 0

@@ -6,7 +6,7 @@ from helpers import clouds
 
 from hdpea.curvature.carrying import carried_over
 from hdpea.curvature.tensors import Estimate
-from hdpea.embedding.embedded import Metric
+from hdpea.geometry.metric import Metric
 
 METRIC = Metric(scale=0.5, max_stretch=8)
 

@@ -15,8 +15,9 @@ from hdpea.curvature.from_embedding import estimate_from_embedding
 from hdpea.curvature.from_jets import estimate_from_jets
 from hdpea.curvature.options import CurvatureOptions, EstimationOptions
 from hdpea.embedding import EMBEDDERS, embed_surface
-from hdpea.embedding.embedded import Embedded, Metric
+from hdpea.embedding.embedded import Embedded
 from hdpea.errors import CannotReconstruct, Interrupted, UsageError
+from hdpea.geometry.metric import Metric
 from hdpea.options import EmbeddingOptions, NormalOptions
 from hdpea.surface.normals import oriented_surface
 
@@ -212,14 +213,6 @@ def test_an_embedder_that_does_not_say_its_metric_gives_no_curvature(monkeypatch
     tensors = estimate_curvature(*clouds.torus(1_000))
     assert np.isnan(tensors.curvatures).all()
     assert np.isfinite(tensors.stretches).all()
-
-
-def test_the_metric_clamps_at_both_ends_of_its_range() -> None:
-    metric = Metric(scale=0.5, max_stretch=8)
-    low, high = metric.curvature_range
-    curvatures = np.array([0, low, -10, high, 2 * high])
-    np.testing.assert_allclose(metric.stretches(curvatures), [1, 1, 5**0.5, 8, 8])
-    np.testing.assert_allclose(metric.curvatures(metric.stretches(curvatures)), [low, low, 10, high, high])
 
 
 def test_progress_tells_the_phases_and_can_stop() -> None:

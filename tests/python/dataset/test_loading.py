@@ -8,7 +8,7 @@ import pytest
 from helpers import dataset_standins
 
 from hdpea.dataset.augmentation import TRANSFORMS
-from hdpea.dataset.building import build_dataset
+from hdpea.dataset.build import build_dataset
 from hdpea.dataset.loading import Dataset
 from hdpea.dataset.options import DatasetOptions
 from hdpea.errors import UnreadableInput, UsageError
@@ -17,7 +17,7 @@ from hdpea.options.settings import filled
 
 @pytest.fixture
 def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    monkeypatch.setattr("hdpea.dataset.building.make_samples", dataset_standins.make_samples)
+    monkeypatch.setattr("hdpea.dataset.build.make_samples", dataset_standins.make_samples)
     meshes = dataset_standins.write_meshes(tmp_path / "meshes", "a", "b")
     build_dataset(str(meshes), tmp_path / "out", filled(DatasetOptions, {"points": 50, "jobs": 1}))
     return tmp_path / "out"

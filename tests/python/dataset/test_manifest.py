@@ -8,9 +8,9 @@ from typing import Any
 import pytest
 
 from hdpea.dataset.manifest import SCHEMA, Manifest, MeshEntry, SampleEntry, read_manifest, write_manifest
+from hdpea.dataset.manifest_options import options_for_manifest, options_from_manifest
 from hdpea.dataset.options import DatasetOptions
-from hdpea.dataset.rebuilding import require_same_bytes
-from hdpea.dataset.recorded_options import options_recorded, recorded_options
+from hdpea.dataset.verification import require_same_bytes
 from hdpea.errors import QualityMissed, UnreadableInput
 from hdpea.options.settings import filled
 
@@ -21,7 +21,7 @@ def manifest(hdpea: str = "1.0", mesh_hash: str = "00", names: tuple[str, ...] =
     samples = tuple(SampleEntry(name, f"samples/{name}.npz", None, 100, 9894, "11") for name in names)
     mesh = MeshEntry("a", "a.ply", "a site", "CC BY 4.0", mesh_hash, 123, None, samples)
     skipped = MeshEntry("b", "b.ply", "unstated", "unstated", None, 124, "There is no file b.ply.")
-    return Manifest(hdpea, recorded_options(filled(DatasetOptions, options)), (mesh, skipped))
+    return Manifest(hdpea, options_for_manifest(filled(DatasetOptions, options)), (mesh, skipped))
 
 
 def test_a_manifest_comes_back_whole_by_its_name_or_its_folder(tmp_path: Path) -> None:
@@ -41,18 +41,18 @@ def test_every_schema_ever_written_is_read(schema: int) -> None:
 
 def test_options_are_recorded_there_and_back() -> None:
     options = filled(DatasetOptions, {"kind": "scan", "points": 7, "remesh_length": 0.02, "jobs": 3})
-    again = options_recorded(recorded_options(options), jobs=3)
+    again = options_from_manifest(options_for_manifest(options), jobs=3)
     assert (again.sample, again.scanning, again.ground_truth, again.jobs) == (
         options.sample,
         options.scanning,
         options.ground_truth,
         3,
     )
-    assert json.loads(json.dumps(recorded_options(options))) == recorded_options(options)
+    assert json.loads(json.dumps(options_for_manifest(options))) == options_for_manifest(options)
 
 
 def test_options_that_do_nothing_are_not_recorded() -> None:
-    scans, samples = (recorded_options(filled(DatasetOptions, {"kind": kind})) for kind in ("scan", "farthest"))
+    scans, samples = (options_for_manifest(filled(DatasetOptions, {"kind": kind})) for kind in ("scan", "farthest"))
     assert "sampling" not in scans
     assert "scanning" not in samples
 
@@ -60,7 +60,7 @@ def test_options_that_do_nothing_are_not_recorded() -> None:
 @pytest.mark.parametrize("stage", [{"sampling": {"speed": 1}}, {"cooking": {"heat": 1}}])
 def test_options_of_another_version_are_told(stage: dict[str, Any]) -> None:
     with pytest.raises(UnreadableInput, match="unknown option"):
-        options_recorded(stage)
+        options_from_manifest(stage)
 
 
 @pytest.mark.parametrize(

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from helpers import clouds
-from helpers.networks import TINY, neighbors_of
+from helpers.networks import TINY, neighbors_of, network_of
 
 from hdpea import _core
 from hdpea.embedding.embedded import Embedded
@@ -16,7 +16,6 @@ from hdpea.embedding.learned import embed_learned
 from hdpea.errors import UsageError
 from hdpea.geometry.unit_frame import UnitFrame
 from hdpea.network.averaging import carried_over
-from hdpea.network.transformer import PointTransformer
 from hdpea.network.weights import write_weights
 from hdpea.options import EmbeddingOptions, MeshingOptions, Options
 from hdpea.reconstruction import reconstruct
@@ -26,7 +25,7 @@ from hdpea.surface.surface import Surface
 @pytest.fixture(scope="module")
 def weights(tmp_path_factory: pytest.TempPathFactory) -> str:
     path: Path = tmp_path_factory.mktemp("weights") / "tiny.safetensors"
-    write_weights(path, PointTransformer(TINY))
+    write_weights(path, network_of(TINY))
     return str(path)
 
 

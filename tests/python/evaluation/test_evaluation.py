@@ -18,7 +18,7 @@ from hdpea import _core
 from hdpea.errors import CannotReconstruct
 from hdpea.evaluation.curvature_metric import MOST_STRETCHED, triangle_qualities
 from hdpea.evaluation.distances import distances_between
-from hdpea.evaluation.evaluating import evaluate
+from hdpea.evaluation.evaluation import evaluate
 from hdpea.evaluation.normalization import DIAGONAL, LONGEST_SIDE
 from hdpea.evaluation.options import EvaluationOptions
 from hdpea.evaluation.scores import Accuracy, Evaluation

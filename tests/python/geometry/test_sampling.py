@@ -8,15 +8,14 @@ import pytest
 from helpers import meshes
 
 from hdpea import _core
-from hdpea.dataset.options import SamplingOptions
-from hdpea.errors import CannotReconstruct
+from hdpea.errors import CannotReconstruct, UsageError
 from hdpea.geometry.sampling import SurfaceSamples, face_normals, sample_surface
 
 METHODS = ("area", "farthest")
 
 
 def sampled(mesh: meshes.Mesh, points: int = 2000, method: str = "area", seed: int = 0) -> SurfaceSamples:
-    return sample_surface(*mesh, SamplingOptions(points, method, seed))
+    return sample_surface(*mesh, points, method=method, seed=seed)
 
 
 @pytest.mark.parametrize("method", METHODS)
@@ -64,3 +63,9 @@ def test_double_and_degenerate_faces_change_nothing(method: str) -> None:
 def test_a_mesh_without_area_is_refused() -> None:
     with pytest.raises(CannotReconstruct, match="no area"):
         sampled((np.eye(3), np.array([[0, 1, 1]])))
+
+
+@pytest.mark.parametrize(("points", "method"), [(0, "area"), (10, "poisson")])
+def test_what_cannot_be_drawn_is_refused(points: int, method: str) -> None:
+    with pytest.raises(UsageError, match="Cannot draw"):
+        sampled(meshes.box(), points, method)

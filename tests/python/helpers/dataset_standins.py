@@ -13,12 +13,12 @@ import numpy as np
 import trimesh
 from helpers.meshes import sample
 
-from hdpea.dataset import building
+from hdpea.dataset import build
 from hdpea.dataset.sample_file import encoded
 from hdpea.dataset.surface_file import read_surface
 
 
-def make_samples(task: building.Task) -> list[building.MadeSample]:
+def make_samples(task: build.Task) -> list[build.EncodedSample]:
     """Return a sample without psi, after what the name says has happened."""
     name = task.source.name
     if "crash" in name:
@@ -30,7 +30,7 @@ def make_samples(task: building.Task) -> list[building.MadeSample]:
     if "slow" in name:
         time.sleep(0.3)
     made = sample(read_surface(task.source.path), points=task.options.sampling.points, seed=task.seed)
-    return [building.MadeSample(None, len(made.points), encoded(made))]
+    return [build.EncodedSample(None, len(made.points), encoded(made))]
 
 
 def write_meshes(folder: Path, *names: str) -> Path:
@@ -54,7 +54,7 @@ def open_mesh(path: Path) -> None:
 
 
 if __name__ == "__main__":
-    building.make_samples = make_samples
+    build.make_samples = make_samples
     from hdpea.cli import main
 
     main()

@@ -7,7 +7,6 @@ import numpy as np
 import trimesh
 from numpy.typing import NDArray
 
-from hdpea.dataset.options import SamplingOptions
 from hdpea.dataset.sample import Sample
 from hdpea.geometry.sampling import sample_surface
 from hdpea.geometry.unit_frame import UnitFrame
@@ -41,7 +40,7 @@ def nested_spheres() -> Mesh:
 def sample(mesh: Mesh, points: int = 2000, seed: int = 0) -> Sample:
     """Return a sample whose psi and curvatures are told apart row by row."""
     vertices, faces = mesh
-    drawn = sample_surface(vertices, faces, SamplingOptions(points, seed=seed))
+    drawn = sample_surface(vertices, faces, points, seed=seed)
     on_surface, normals = drawn.points.astype(np.float32), drawn.normals.astype(np.float32)
     along = np.cross(normals, np.roll(normals, 1, axis=1) + np.float32([0.1, 0.2, 0.3]))
     numbered = np.arange(points, dtype=np.float32)[:, None]

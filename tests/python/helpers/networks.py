@@ -11,11 +11,13 @@ from helpers.samples import sphere_sample
 
 from hdpea import _core
 from hdpea.dataset.sample import Sample
+from hdpea.geometry.metric import ScaledMetric
 from hdpea.geometry.unit_frame import UnitFrame
 from hdpea.network.clouds import Clouds
 from hdpea.network.inference import predict_psi
 from hdpea.network.options import NetworkOptions
 from hdpea.network.transformer import PointTransformer
+from hdpea.network.weights import UNRECORDED_METRIC
 from hdpea.training.options import CropOptions, TrainingOptions
 
 TINY = NetworkOptions(
@@ -32,12 +34,18 @@ TINY = NetworkOptions(
     normal_share=2.0,
 )
 
+METRIC = UNRECORDED_METRIC
+
 SPACING = 0.1
 """Of the vertices of a mesh of the tori here."""
 
 QUICK = TrainingOptions(
     steps=10, warm_up=3, batch=2, log_every=2, validate_every=100, crops=CropOptions(least_points=100, most_points=150)
 )
+
+
+def network_of(options: NetworkOptions = TINY, metric: ScaledMetric = METRIC) -> PointTransformer:
+    return PointTransformer(options, metric)
 
 
 def torus_sample(count: int = 400, seed: int = 0) -> Sample:
@@ -80,6 +88,7 @@ class InMemory:
     """A dataset without files."""
 
     data: dict[str, Sample] = field(default_factory=lambda: {str(seed): torus_sample(seed=seed) for seed in range(3)})
+    metric: ScaledMetric = METRIC
 
     @property
     def names(self) -> list[str]:

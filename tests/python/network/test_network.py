@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 import torch
 from helpers import clouds
-from helpers.networks import SPACING, TINY, cloud_of, neighbors_of, predicted, unit_torus
+from helpers.networks import SPACING, TINY, cloud_of, neighbors_of, network_of, predicted, unit_torus
 
 from hdpea.errors import UsageError
 from hdpea.network.clouds import Clouds, shape_operators
@@ -25,7 +25,7 @@ def shape_of(matrix: np.ndarray) -> np.ndarray:
 
 @pytest.fixture(params=[TINY, PLAIN], ids=["stem", "plain"])
 def network(request: pytest.FixtureRequest) -> PointTransformer:
-    return PointTransformer(request.param).eval()
+    return network_of(request.param).eval()
 
 
 def test_the_order_of_points_does_not_matter_to_the_last_bit(network: PointTransformer) -> None:
@@ -64,13 +64,13 @@ def test_psi_scales_with_the_cloud_and_the_spacing(network: PointTransformer) ->
 
 
 def test_weights_start_from_the_seed_alone() -> None:
-    first, second, other = (PointTransformer(replace(TINY, seed=seed)).state_dict() for seed in (1, 1, 2))
+    first, second, other = (network_of(replace(TINY, seed=seed)).state_dict() for seed in (1, 1, 2))
     assert all(torch.equal(first[name], second[name]) for name in first)
     assert not torch.equal(first["psi.weight"], other["psi.weight"])
 
 
 def test_curves_are_shuffled_in_training_only() -> None:
-    network, cloud = PointTransformer(TINY), cloud_of(*unit_torus())
+    network, cloud = network_of(TINY), cloud_of(*unit_torus())
     with torch.no_grad():
         network.train()
         torch.manual_seed(0)
@@ -84,7 +84,7 @@ def test_curves_are_shuffled_in_training_only() -> None:
 def test_the_configurations_have_the_sizes_they_are_meant_to_have() -> None:
     with torch.device("meta"):
         sizes = {
-            name: sum(each.numel() for each in PointTransformer(options).parameters())
+            name: sum(each.numel() for each in network_of(options).parameters())
             for name, options in CONFIGURATIONS.items()
         }
     assert 1_000_000 <= sizes["compact"] <= 5_000_000

@@ -5,13 +5,12 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from helpers.networks import SPACING, TINY, neighbors_of, unit_torus
+from helpers.networks import SPACING, TINY, neighbors_of, network_of, unit_torus
 
 from hdpea.errors import Interrupted
 from hdpea.network import inference
 from hdpea.network.inference import predict_psi
 from hdpea.network.patches import cut_patches, isometry, joined_psi, spanning_order
-from hdpea.network.transformer import PointTransformer
 
 
 def turned(psi: np.ndarray, random: np.random.Generator) -> np.ndarray:
@@ -60,7 +59,7 @@ def small_patches(monkeypatch: pytest.MonkeyPatch) -> None:
 
 @pytest.mark.usefixtures("small_patches")
 def test_in_patches_the_order_of_points_does_not_matter_to_the_last_bit() -> None:
-    network, (points, normals) = PointTransformer(TINY), unit_torus(2000)
+    network, (points, normals) = network_of(TINY), unit_torus(2000)
     order = np.random.default_rng(1).permutation(len(points))
 
     def psi(points: np.ndarray, normals: np.ndarray) -> np.ndarray:
@@ -73,6 +72,4 @@ def test_in_patches_the_order_of_points_does_not_matter_to_the_last_bit() -> Non
 def test_a_cloud_in_patches_can_be_cancelled() -> None:
     points, normals = unit_torus(2000)
     with pytest.raises(Interrupted):
-        predict_psi(
-            PointTransformer(TINY), points, normals, neighbors_of(points, normals), SPACING, 1000, lambda _: False
-        )
+        predict_psi(network_of(TINY), points, normals, neighbors_of(points, normals), SPACING, 1000, lambda _: False)

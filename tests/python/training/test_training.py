@@ -14,11 +14,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 import torch
-from helpers.networks import QUICK, SPACING, TINY, InMemory, predicted, torus_sample, unit_torus
+from helpers.networks import METRIC, QUICK, SPACING, TINY, InMemory, network_of, predicted, torus_sample, unit_torus
 
 from hdpea.errors import Interrupted, UnreadableInput, UsageError
 from hdpea.geometry.unit_frame import UnitFrame
-from hdpea.network.transformer import PointTransformer
+from hdpea.network.weights import UNRECORDED_METRIC, read_weights
 from hdpea.surface.surface import Surface
 from hdpea.training.checkpoint import FORMAT, Checkpoint
 from hdpea.training.crops import crop_number, cut_crop
@@ -80,6 +80,38 @@ def test_other_options_are_refused_but_for_the_steps(tmp_path: Path) -> None:
         train(InMemory(), None, tmp_path, TINY, replace(QUICK, batch=4))
     with pytest.raises(UsageError, match="other options"):
         train(InMemory(), None, tmp_path, replace(TINY, smoothing=5), QUICK)
+
+
+OTHER_METRIC = replace(METRIC, scale=20.0)
+
+
+def test_the_metric_is_that_of_the_samples_and_comes_along_with_the_weights(tmp_path: Path) -> None:
+    validation = InMemory({"torus": torus_sample(2000)}, metric=OTHER_METRIC)
+    options = replace(QUICK, steps=1, validation_vertices=200)
+    train(InMemory(metric=OTHER_METRIC), validation, tmp_path, TINY, options)
+    assert Checkpoint.read(tmp_path / "last.pt").build().metric == OTHER_METRIC
+    assert read_weights(tmp_path / "best.safetensors").metric == OTHER_METRIC
+
+
+def test_another_metric_is_refused(tmp_path: Path) -> None:
+    with pytest.raises(UsageError, match="metric of the validation set"):
+        train(InMemory(), InMemory(metric=OTHER_METRIC), tmp_path, TINY, QUICK)
+    with pytest.raises(UsageError, match="metric of another dataset"):
+        Joined([InMemory(), InMemory(metric=OTHER_METRIC)])
+    with pytest.raises(UsageError, match="scale of 0"):
+        train(InMemory(metric=replace(METRIC, scale=0.0)), None, tmp_path, TINY, QUICK)
+    train(InMemory(), None, tmp_path, TINY, replace(QUICK, steps=1))
+    with pytest.raises(UsageError, match="samples of another metric"):
+        train(InMemory(metric=OTHER_METRIC), None, tmp_path, TINY, QUICK)
+
+
+def test_a_checkpoint_that_records_no_metric_still_loads(tmp_path: Path) -> None:
+    train(InMemory(), None, tmp_path, TINY, replace(QUICK, steps=1))
+    content = torch.load(tmp_path / "last.pt", weights_only=True)
+    del content["metric"]
+    torch.save(content, tmp_path / "last.pt")
+    assert Checkpoint.read(tmp_path / "last.pt").build().metric == UNRECORDED_METRIC
+    assert train(InMemory(), None, tmp_path, TINY, replace(QUICK, steps=2)).step == 2
 
 
 def test_validation_reconstructs_and_keeps_the_best(tmp_path: Path) -> None:
@@ -179,7 +211,9 @@ def test_an_empty_dataset_is_refused() -> None:
         Training(InMemory({}), TINY, QUICK)
 
 
-@pytest.mark.parametrize("damage", ["missing", "truncated", "text", "other", "format", "parts", "weights"])
+@pytest.mark.parametrize(
+    "damage", ["missing", "truncated", "text", "other", "format", "parts", "weights", "tensors", "network", "metric"]
+)
 def test_a_damaged_checkpoint_is_told_apart(damage: str, tmp_path: Path) -> None:
     path = tmp_path / "last.pt"
     if damage != "missing":
@@ -198,6 +232,12 @@ def test_a_damaged_checkpoint_is_told_apart(damage: str, tmp_path: Path) -> None
         torch.save(content, path)
     elif damage == "weights":
         torch.save(content | {"averaged": {"other": torch.zeros(1)}}, path)
+    elif damage == "tensors":
+        torch.save(content | {"averaged": [1, 2]}, path)
+    elif damage == "network":
+        torch.save(content | {"network": content["network"] | {"depths": (100_000, 1)}}, path)
+    elif damage == "metric":
+        torch.save(content | {"metric": content["metric"] | {"scale": float("nan")}}, path)
     with pytest.raises(UnreadableInput):
         Checkpoint.read(path).build()
 
@@ -213,7 +253,7 @@ def test_ctrl_c_is_a_request() -> None:
 
 @pytest.mark.slow
 def test_two_processes_learn_what_one_does(tmp_path: Path) -> None:
-    start = PointTransformer(TINY).state_dict()
+    start = network_of(TINY).state_dict()
     alone = train(InMemory(), None, tmp_path, TINY, QUICK).network.state_dict()
     together = tmp_path / "together"
     together.mkdir()

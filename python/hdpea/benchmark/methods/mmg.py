@@ -9,7 +9,6 @@ from numpy.typing import NDArray
 
 from hdpea import _core
 from hdpea.benchmark.methods.options import ATTEMPTS, TOLERANCE
-from hdpea.dataset.options import SamplingOptions
 from hdpea.evaluation.curvature_metric import SAMPLES, curvature_metric
 from hdpea.geometry.sampling import sample_surface
 from hdpea.geometry.triangles import mesh_area
@@ -50,7 +49,7 @@ def adapted(mesh: TriangleMesh, vertices: int) -> TriangleMesh:
 
 def _metric_at_vertices(surface: TriangleMesh) -> tuple[NDArray[np.float64], float]:
     """Return the tensors (v, 6), xx, xy, xz, yy, yz and zz, and the area of the surface under them."""
-    drawn = sample_surface(*surface, SamplingOptions(points=SAMPLES))
+    drawn = sample_surface(*surface, SAMPLES)
     metric = curvature_metric(drawn.points, drawn.normals, mesh_area(*surface))
     roots = metric.roots[_core.nearest_neighbors(metric.points, surface[0], 1)[:, 0]]
     # The smaller tangential stretch is the normal's too: the two largest are those that areas grow by.

@@ -14,7 +14,7 @@ from hdpea.dataset.options import DatasetOptions
 from hdpea.errors import UsageError
 
 if TYPE_CHECKING:
-    from hdpea.dataset.building import Built
+    from hdpea.dataset.build import BuildResult
 
 EPILOG = """\b
 Examples:
@@ -51,10 +51,10 @@ def command(ctx: click.Context, /, *, meshes: str, output: Path, like: Path | No
     same command. Lengths are shares of the diagonal of the mesh's bounding box, or spacings
     (sqrt(area / vertices)) where it says so.
     """
-    from hdpea.dataset.building import build_dataset
+    from hdpea.dataset.build import build_dataset
     from hdpea.dataset.manifest import read_manifest
-    from hdpea.dataset.rebuilding import require_same_bytes
-    from hdpea.dataset.recorded_options import options_recorded
+    from hdpea.dataset.manifest_options import options_from_manifest
+    from hdpea.dataset.verification import require_same_bytes
     from hdpea.options.settings import RUN, filled, settings
 
     wanted = None if like is None else read_manifest(like)
@@ -65,16 +65,16 @@ def command(ctx: click.Context, /, *, meshes: str, output: Path, like: Path | No
         given = [name for name in values if ctx.get_parameter_source(name) == ParameterSource.COMMANDLINE]
         if given:
             raise UsageError(f"--like and --{given[0].replace('_', '-')} exclude each other.", "Give one of them.")
-        options = options_recorded(wanted.options, **run)
+        options = options_from_manifest(wanted.options, **run)
 
-    built = build_dataset(meshes, output, options, told=lambda line: None if quiet else click.echo(line, err=True))
+    built = build_dataset(meshes, output, options, log=lambda line: None if quiet else click.echo(line, err=True))
     if not quiet:
         click.echo(_summary(output, built), err=True)
     if wanted is not None:
         require_same_bytes(wanted, built.manifest)
 
 
-def _summary(output: Path, built: Built) -> str:
+def _summary(output: Path, built: BuildResult) -> str:
     manifest = built.manifest
     skipped = sum(mesh.skipped is not None for mesh in manifest.meshes)
     size = sum(sample.bytes for sample in manifest.samples)

@@ -30,7 +30,7 @@ def command(source: Path, output: Path, **values: Any) -> None:
     has them, are estimated anew. Lengths are shares of the diagonal of the mesh's bounding box.
     """
     from hdpea.dataset.degradation import degraded
-    from hdpea.dataset.estimation import estimated_normals
+    from hdpea.dataset.normal_estimation import estimated_normals
     from hdpea.dataset.sample_file import SAMPLE_FORMATS, read_sample, write_sample
     from hdpea.options.settings import filled
     from hdpea.runtime.outputs import check_not_input, check_output

@@ -11,8 +11,8 @@ import click
 from hdpea.cli.parameters import GroupedCommand
 
 if TYPE_CHECKING:
-    from hdpea.dataset.facts import SampleFacts
     from hdpea.dataset.loading import Dataset
+    from hdpea.dataset.statistics import SampleStatistics
 
 EPILOG = """\b
 Examples:
@@ -37,12 +37,12 @@ def command(source: Path) -> None:
 
         click.echo(_describe_dataset(Dataset(source)))
     else:
-        from hdpea.dataset.facts import sample_facts
         from hdpea.dataset.options import GroundTruthOptions
         from hdpea.dataset.sample_file import read_sample
+        from hdpea.dataset.statistics import sample_statistics
 
         sample = read_sample(source)
-        facts = sample_facts(sample, GroundTruthOptions())
+        facts = sample_statistics(sample, GroundTruthOptions())
         centre = " ".join(f"{each:.6g}" for each in sample.frame.centre_in_world)
         rows = {
             "points": f"{facts.points:,}",
@@ -54,12 +54,12 @@ def command(source: Path) -> None:
 
 def _describe_dataset(dataset: Dataset) -> str:
     from hdpea.dataset.card import licence_table
-    from hdpea.dataset.facts import sample_facts
-    from hdpea.dataset.recorded_options import options_recorded
+    from hdpea.dataset.manifest_options import options_from_manifest
+    from hdpea.dataset.statistics import sample_statistics
 
     manifest = dataset.manifest
-    metric = options_recorded(manifest.options).ground_truth
-    facts = [sample_facts(sample, metric) for sample in dataset]
+    metric = options_from_manifest(manifest.options).ground_truth
+    facts = [sample_statistics(sample, metric) for sample in dataset]
     used = [mesh for mesh in manifest.meshes if mesh.skipped is None]
     rows = {
         "built by": f"hdpea {manifest.hdpea}",
@@ -74,7 +74,7 @@ def _describe_dataset(dataset: Dataset) -> str:
     return "\n".join([*_columns(rows), *skipped, "", *_ranges(facts), "", *licences])
 
 
-def _ranges(facts: list[SampleFacts]) -> list[str]:
+def _ranges(facts: list[SampleStatistics]) -> list[str]:
     """Return a table of the ranges; over several samples the least, the medians of the percentiles, and the most."""
     import numpy as np
 

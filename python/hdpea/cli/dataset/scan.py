@@ -48,8 +48,8 @@ def command(mesh: Path, output: Path, quiet: bool, **values: Any) -> None:
         tell(progress, "reading", 0.0)
         vertices, faces = read_surface(mesh)
         if output.suffix.lower() == ".npz":
-            from hdpea.dataset.making import make_sample
             from hdpea.dataset.sample_file import write_sample
+            from hdpea.dataset.sample_generation import make_sample
 
             as_scan = replace(options, sample=replace(options.sample, kind="scan"))
             write_sample(output, make_sample(vertices, faces, as_scan, options.scanning.seed, progress))

@@ -26,7 +26,7 @@ def command(source: Path, output: Path) -> None:
     direction of the smaller curvature, in which the triangles of a mesh will be long.
     """
     from hdpea.dataset.sample_file import read_sample
-    from hdpea.dataset.showing import draw_sample
+    from hdpea.dataset.sample_picture import draw_sample
     from hdpea.pictures.picture import PICTURE_FORMATS, check_drawing
     from hdpea.runtime.outputs import check_output
 

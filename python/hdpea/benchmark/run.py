@@ -16,11 +16,12 @@ from hdpea.benchmark.methods.folder import made_elsewhere
 from hdpea.benchmark.model import Model
 from hdpea.benchmark.provenance import code
 from hdpea.benchmark.record import RMS, Record, file_name, key_of, read_record, write_record
-from hdpea.benchmark.running import Task, run
 from hdpea.benchmark.suite import HELD_OUT, Suite, SuiteInput, SuiteMethod
 from hdpea.benchmark.true_surface import TrueSurface
+from hdpea.benchmark.worker import Task, run_method_isolated
+from hdpea.dataset.discovery import find_clouds, find_meshes
 from hdpea.dataset.raycasting import require_embree
-from hdpea.dataset.sources import MeshSource, find_clouds, find_meshes
+from hdpea.dataset.sources import Source
 from hdpea.errors import HdpeaError, UsageError, core_errors_translated
 from hdpea.version import version
 from hdpea.writing.meshes import write_mesh
@@ -29,7 +30,7 @@ Chosen = TypeVar("Chosen")
 RUNS, MESHES, CLOUDS, SURFACES = "runs", "meshes", "clouds", "surfaces"
 
 
-def sources_of(suite: Suite, where: str) -> list[MeshSource]:
+def sources_of(suite: Suite, where: str) -> list[Source]:
     """Return the files of as many models as the suite says: of the meshes, or clouds, that `where` names.
 
     Raises
@@ -41,7 +42,7 @@ def sources_of(suite: Suite, where: str) -> list[MeshSource]:
     return evenly(find(where), suite.options.models)
 
 
-def model_of(suite: Suite, source: MeshSource) -> Model:
+def model_of(suite: Suite, source: Source) -> Model:
     """Return the model in a file, as the suite takes it."""
     kind = HeldOut if suite.options.truth == HELD_OUT else TrueSurface
     return kind(source, suite.options)
@@ -51,7 +52,7 @@ def run_suite(
     suite: Suite,
     meshes: str,
     folder: Path,
-    told: Callable[[str], None] = lambda _: None,
+    log: Callable[[str], None] = lambda _: None,
 ) -> list[Record]:
     """Run a suite on the models that `meshes` names (see ``sources_of``); return every record, also of failures.
 
@@ -61,7 +62,7 @@ def run_suite(
 
     Parameters
     ----------
-    told
+    log
         Is given a line about each run.
 
     Raises
@@ -83,7 +84,7 @@ def run_suite(
     for source in sources:
         for record, news in _runs_of(suite, model_of(suite, source), folder):
             records.append(record)
-            told(f"[{len(records)} of {total}] {record.stem.as_posix()}: {news}")
+            log(f"[{len(records)} of {total}] {record.stem.as_posix()}: {news}")
     return records
 
 
@@ -146,7 +147,7 @@ def _run(planned: Record, model: Model, cloud: Cloud | HdpeaError, method: Suite
         return replace(planned, failed=cloud.message)
     surfaces = folder / SURFACES / planned.stem.parent
     task = Task(cloud, method.method, method.values, planned.vertices, surfaces)
-    outcome = run(task, model.options.time_limit)
+    outcome = run_method_isolated(task, model.options.time_limit)
     if outcome.result is None:
         return replace(planned, failed=outcome.failed, seconds=outcome.seconds)
     made = outcome.result

@@ -12,15 +12,16 @@ from hashlib import sha256
 from pathlib import Path
 
 from hdpea.dataset.augmentation import TRANSFORMS, augmented
+from hdpea.dataset.build_folder import open_folder
 from hdpea.dataset.card import write_card
-from hdpea.dataset.folder import open_folder
-from hdpea.dataset.making import make_sample
+from hdpea.dataset.discovery import find_meshes
 from hdpea.dataset.manifest import Manifest, MeshEntry, SampleEntry, write_manifest
+from hdpea.dataset.manifest_options import options_for_manifest
 from hdpea.dataset.options import DatasetOptions
 from hdpea.dataset.raycasting import require_embree
-from hdpea.dataset.recorded_options import recorded_options
 from hdpea.dataset.sample_file import encoded
-from hdpea.dataset.sources import MeshSource, find_meshes
+from hdpea.dataset.sample_generation import make_sample
+from hdpea.dataset.sources import Source
 from hdpea.dataset.surface_file import read_surface
 from hdpea.errors import QualityMissed, core_errors_translated
 from hdpea.runtime.outputs import replacing
@@ -34,14 +35,14 @@ IDENTITY = "identity"
 class Task:
     """What a process needs to know to make the samples of one mesh."""
 
-    source: MeshSource
+    source: Source
     options: DatasetOptions
     seed: int
     threads: int
 
 
 @dataclass(frozen=True)
-class MadeSample:
+class EncodedSample:
     """The file of a sample, and the augmentation it holds, if any."""
 
     augmentation: str | None
@@ -50,7 +51,7 @@ class MadeSample:
 
 
 @dataclass(frozen=True)
-class Built:
+class BuildResult:
     """What a build came to: the manifest, and how many of its meshes were `kept` from an earlier run."""
 
     manifest: Manifest
@@ -62,8 +63,8 @@ def build_dataset(
     where: str,
     folder: Path,
     options: DatasetOptions | None = None,
-    told: Callable[[str], None] = lambda _: None,
-) -> Built:
+    log: Callable[[str], None] = lambda _: None,
+) -> BuildResult:
     """Build the dataset of the meshes that `where` names (see ``find_meshes``) in `folder`, or continue to.
 
     A mesh that cannot be used is skipped, and the manifest says why. What an earlier run with the same options
@@ -72,7 +73,7 @@ def build_dataset(
 
     Parameters
     ----------
-    told
+    log
         Is given a line about each mesh.
 
     Raises
@@ -89,11 +90,11 @@ def build_dataset(
     if options.sample.kind == "scan":
         require_embree()  # said once, not of every mesh
     sources = find_meshes(where)
-    manifest = Manifest(version(), recorded_options(options))
+    manifest = Manifest(version(), options_for_manifest(options))
     finished = open_folder(folder, manifest, sources)
     done = dict(finished)
     for name in done:
-        told(f"{name}: is there already")
+        log(f"{name}: is there already")
     jobs = options.jobs or os.cpu_count() or 1
     tasks = [
         Task(source, options, seed_of(source.name, options.seed), max((os.cpu_count() or 1) // jobs, 1))
@@ -105,13 +106,13 @@ def build_dataset(
         done[entry.name] = entry
         manifest = replace(manifest, meshes=tuple(done[name] for name in sorted(done)))
         write_manifest(folder, manifest)
-        told(f"{entry.name}: {_described(entry, outcome.seconds)} ({len(done)} of {len(sources)})")
+        log(f"{entry.name}: {_described(entry, outcome.seconds)} ({len(done)} of {len(sources)})")
     manifest = replace(manifest, meshes=tuple(done[name] for name in sorted(done)))
     write_manifest(folder, manifest)
     write_card(folder, manifest)
     if not manifest.samples:
         raise QualityMissed(f"None of the {len(sources)} meshes could be used.", "The reasons are above.")
-    return Built(manifest, len(finished), time.perf_counter() - started)
+    return BuildResult(manifest, len(finished), time.perf_counter() - started)
 
 
 def seed_of(name: str, seed: int) -> int:
@@ -119,7 +120,7 @@ def seed_of(name: str, seed: int) -> int:
     return zlib.crc32(f"{seed}:{name}".encode())
 
 
-def make_samples(task: Task) -> list[MadeSample]:
+def make_samples(task: Task) -> list[EncodedSample]:
     """Return the samples of a mesh: one, or all ten augmentations if they are to be written.
 
     Raises
@@ -134,17 +135,17 @@ def make_samples(task: Task) -> list[MadeSample]:
     _core.set_thread_limit(task.threads)
     with core_errors_translated():
         sample = make_sample(*read_surface(task.source.path), task.options, task.seed)
-    made = [MadeSample(None, len(sample.points), encoded(sample))]
+    made = [EncodedSample(None, len(sample.points), encoded(sample))]
     if task.options.sample.augmented:
         made += [
-            MadeSample(name, len(sample.points), encoded(augmented(sample, matrix)))
+            EncodedSample(name, len(sample.points), encoded(augmented(sample, matrix)))
             for name, matrix in TRANSFORMS.items()
             if name != IDENTITY
         ]
     return made
 
 
-def _entry(folder: Path, task: Task, outcome: Outcome[list[MadeSample]]) -> MeshEntry:
+def _entry(folder: Path, task: Task, outcome: Outcome[list[EncodedSample]]) -> MeshEntry:
     """Write the samples of a mesh, and return what the manifest says of it."""
     source = task.source
     entry = MeshEntry(source.name, source.source, source.origin, source.licence, source.sha256(), task.seed)
@@ -154,7 +155,7 @@ def _entry(folder: Path, task: Task, outcome: Outcome[list[MadeSample]]) -> Mesh
     return replace(entry, samples=tuple(_written(folder, source.name, made) for made in outcome.result))
 
 
-def _written(folder: Path, mesh: str, made: MadeSample) -> SampleEntry:
+def _written(folder: Path, mesh: str, made: EncodedSample) -> SampleEntry:
     name = mesh if made.augmentation is None else f"{mesh}.{made.augmentation}"
     path = folder / "samples" / f"{name}.npz"
     path.parent.mkdir(parents=True, exist_ok=True)

@@ -13,10 +13,10 @@ import pytest
 from helpers import clouds
 
 from hdpea.benchmark import methods
-from hdpea.benchmark.making import Made
+from hdpea.benchmark.measured_mesh import MeasuredMesh
 from hdpea.benchmark.methods import Cloud
 from hdpea.benchmark.methods.options import PoissonOptions
-from hdpea.benchmark.surfaces import surface_of
+from hdpea.benchmark.surface_cache import cached_surface
 
 CLOUD = Cloud(*clouds.sphere(100), "ball", "clean")
 
@@ -37,8 +37,8 @@ def calls(monkeypatch: pytest.MonkeyPatch) -> list[int]:
     return called
 
 
-def made(folder: Path, cloud: Cloud = CLOUD, depth: int = 8, reduce: str = "fast") -> Made:
-    return surface_of(cloud, "counted", PoissonOptions(reduce=reduce, depth=depth), folder)
+def made(folder: Path, cloud: Cloud = CLOUD, depth: int = 8, reduce: str = "fast") -> MeasuredMesh:
+    return cached_surface(cloud, "counted", PoissonOptions(reduce=reduce, depth=depth), folder)
 
 
 def test_a_surface_is_made_once_for_all_reductions(tmp_path: Path, calls: list[int]) -> None:
@@ -71,5 +71,5 @@ def test_half_a_file_is_made_again(tmp_path: Path, calls: list[int]) -> None:
 
 def test_what_two_steps_take_is_added_but_for_their_memory() -> None:
     mesh = (np.zeros((3, 3)), np.array([[0, 1, 2]]))
-    both = Made(mesh, 1.0, 2.0, 300).then(Made(mesh, 10.0, 20.0, 200))
+    both = MeasuredMesh(mesh, 1.0, 2.0, 300).then(MeasuredMesh(mesh, 10.0, 20.0, 200))
     assert (both.seconds, both.cpu_seconds, both.peak_bytes) == (11.0, 22.0, 300)

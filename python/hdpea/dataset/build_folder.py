@@ -9,13 +9,13 @@ from hashlib import sha256
 from pathlib import Path
 
 from hdpea.dataset.manifest import MANIFEST_NAME, Manifest, MeshEntry, read_manifest, write_manifest
-from hdpea.dataset.sources import MeshSource
+from hdpea.dataset.sources import Source
 from hdpea.errors import UsageError
 
 _HALF_WRITTEN = re.compile(r"\..+\.\d+\.(npz|json|md)")
 
 
-def open_folder(folder: Path, manifest: Manifest, sources: Sequence[MeshSource]) -> dict[str, MeshEntry]:
+def open_folder(folder: Path, manifest: Manifest, sources: Sequence[Source]) -> dict[str, MeshEntry]:
     """Make `folder` ready for the dataset of `manifest`; return what an earlier run finished, by name of the mesh.
 
     Finished is a mesh whose file is the same as then, and whose samples are whole. What a killed run left
@@ -45,7 +45,7 @@ def open_folder(folder: Path, manifest: Manifest, sources: Sequence[MeshSource])
     return {each.name: each for each in earlier.meshes if _is_finished(folder, each, by_name[each.name])}
 
 
-def _require_same(folder: Path, earlier: Manifest, manifest: Manifest, sources: Sequence[MeshSource]) -> None:
+def _require_same(folder: Path, earlier: Manifest, manifest: Manifest, sources: Sequence[Source]) -> None:
     hint = "Choose another folder."
     if earlier.hdpea != manifest.hdpea:
         raise UsageError(f"{folder} was built by hdpea {earlier.hdpea}, this is {manifest.hdpea}.", hint)
@@ -59,7 +59,7 @@ def _require_same(folder: Path, earlier: Manifest, manifest: Manifest, sources: 
         raise UsageError(f"{folder} holds samples of other meshes: {', '.join(sorted(others)[:3])}.", hint)
 
 
-def _is_finished(folder: Path, entry: MeshEntry, source: MeshSource) -> bool:
+def _is_finished(folder: Path, entry: MeshEntry, source: Source) -> bool:
     as_now = (source.source, source.origin, source.licence, source.sha256())
     if entry.skipped is not None or (entry.source, entry.origin, entry.licence, entry.sha256) != as_now:
         return False

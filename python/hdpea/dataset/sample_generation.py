@@ -8,8 +8,8 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from hdpea.dataset.estimation import estimated_normals
 from hdpea.dataset.ground_truth import embed_mesh
+from hdpea.dataset.normal_estimation import estimated_normals
 from hdpea.dataset.options import DatasetOptions
 from hdpea.dataset.sample import Sample
 from hdpea.dataset.scanning import scan_surface
@@ -60,5 +60,5 @@ def draw_points(
     if options.sample.kind == "scan":
         scan = scan_surface(vertices, faces, replace(options.scanning, seed=seed))
         return scan.points, scan.surface_points, scan.normals, scan.sensors
-    drawn = sample_surface(vertices, faces, replace(options.sampling, method=options.sample.kind, seed=seed))
+    drawn = sample_surface(vertices, faces, options.sampling.points, method=options.sample.kind, seed=seed)
     return drawn.points, drawn.points, drawn.normals, None

@@ -18,7 +18,7 @@ ERRORS_OF_POINTS = {"exact rms": "to_result.rms", "CD": "samples.chamfer"}
 """The same where the truth is only points: the way back, from the result, is known between samples alone."""
 
 
-def nearest_sentences(records: Sequence[Record], suite: Suite, given: str, vertices: int) -> str:
+def winner_sentences(records: Sequence[Record], suite: Suite, given: str, vertices: int) -> str:
     """Return who has the smallest errors on which models; empty unless several methods made a mesh of one.
 
     Of equals, the first in the suite is named.

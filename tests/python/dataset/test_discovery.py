@@ -15,7 +15,7 @@ import trimesh
 from helpers.dataset_standins import open_mesh
 from helpers.files import WITH_NORMALS
 
-from hdpea.dataset.sources import find_clouds, find_meshes
+from hdpea.dataset.discovery import find_clouds, find_meshes
 from hdpea.dataset.surface_file import read_surface
 from hdpea.errors import CannotReconstruct, UnreadableInput, UsageError
 

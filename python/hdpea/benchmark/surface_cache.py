@@ -11,14 +11,14 @@ from zipfile import BadZipFile
 
 import numpy as np
 
-from hdpea.benchmark.making import Made, made_by
+from hdpea.benchmark.measured_mesh import MeasuredMesh, measured
 from hdpea.benchmark.methods import METHODS, Cloud
 from hdpea.benchmark.record import key_of
 from hdpea.runtime.outputs import replacing
 from hdpea.version import version
 
 
-def surface_of(cloud: Cloud, method: str, options: Any, folder: Path) -> Made:
+def cached_surface(cloud: Cloud, method: str, options: Any, folder: Path) -> MeasuredMesh:
     """Return what a method makes of a cloud before anything is reduced: from `folder`, or else made and put there."""
     settings = {name: value for name, value in asdict(options).items() if name != "reduce"}
     given = sha256(cloud.points.tobytes() + cloud.normals.tobytes()).hexdigest()
@@ -28,7 +28,7 @@ def surface_of(cloud: Cloud, method: str, options: Any, folder: Path) -> Made:
     if kept is not None:
         return kept
     surface = METHODS[method].load("surface")
-    made = made_by(lambda: surface(cloud, options))
+    made = measured(lambda: surface(cloud, options))
     folder.mkdir(parents=True, exist_ok=True)
     with replacing(path) as partial, partial.open("wb") as file:
         np.savez(
@@ -40,11 +40,11 @@ def surface_of(cloud: Cloud, method: str, options: Any, folder: Path) -> Made:
     return made
 
 
-def _read(path: Path) -> Made | None:
+def _read(path: Path) -> MeasuredMesh | None:
     """Read a surface; None if it is not there whole."""
     try:
         with path.open("rb") as file, np.load(file) as arrays:
             seconds, cpu_seconds, peak_bytes = arrays["took"].tolist()
-            return Made((arrays["vertices"], arrays["faces"]), seconds, cpu_seconds, int(peak_bytes))
+            return MeasuredMesh((arrays["vertices"], arrays["faces"]), seconds, cpu_seconds, int(peak_bytes))
     except (OSError, ValueError, KeyError, BadZipFile):
         return None

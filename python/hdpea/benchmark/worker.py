@@ -11,10 +11,10 @@ from typing import Any
 
 import numpy as np
 
-from hdpea.benchmark.making import Made, made_by
+from hdpea.benchmark.measured_mesh import MeasuredMesh, measured
 from hdpea.benchmark.methods import METHODS, Cloud, libraries, method_options
 from hdpea.benchmark.methods.reduction import reduced
-from hdpea.benchmark.surfaces import surface_of
+from hdpea.benchmark.surface_cache import cached_surface
 from hdpea.errors import CannotReconstruct
 from hdpea.reading.triangle_mesh import drop_unused
 from hdpea.runtime.processes import Outcome, run_isolated
@@ -31,12 +31,12 @@ class Task:
     surfaces: Path
 
 
-def run(task: Task, time_limit: float) -> Outcome[Made]:
+def run_method_isolated(task: Task, time_limit: float) -> Outcome[MeasuredMesh]:
     """Run a method in a fresh process: its crash, its memory and its time are its own."""
-    return next(run_isolated(work, [task], jobs=1, time_limit=time_limit))
+    return next(run_isolated(run_method, [task], jobs=1, time_limit=time_limit))
 
 
-def work(task: Task) -> Made:
+def run_method(task: Task) -> MeasuredMesh:
     """Run a method in this process; what it takes is counted from when its libraries are loaded.
 
     Raises
@@ -49,12 +49,12 @@ def work(task: Task) -> Made:
     for library in libraries(task.method, options):
         import_module(library)
     if method.reduces:
-        surface = surface_of(task.cloud, task.method, options, task.surfaces)
-        made = surface.then(made_by(lambda: reduced(surface.mesh, task.vertices, options.reduce)))
+        surface = cached_surface(task.cloud, task.method, options, task.surfaces)
+        made = surface.then(measured(lambda: reduced(surface.mesh, task.vertices, options.reduce)))
     else:
         reconstruct = method.load("reconstruct")
-        made = made_by(lambda: reconstruct(task.cloud, task.vertices, options))
+        made = measured(lambda: reconstruct(task.cloud, task.vertices, options))
     vertices, faces = made.mesh
     if len(faces) == 0 or not np.isfinite(vertices).all():
         raise CannotReconstruct("The method made no triangles.", "See its options.")
-    return Made(drop_unused(vertices, faces), made.seconds, made.cpu_seconds, made.peak_bytes)
+    return MeasuredMesh(drop_unused(vertices, faces), made.seconds, made.cpu_seconds, made.peak_bytes)

@@ -11,7 +11,7 @@ from hdpea.errors import UnreadableInput
 from hdpea.options.settings import RUN, as_dict
 
 
-def recorded_options(options: DatasetOptions) -> dict[str, dict[str, Any]]:
+def options_for_manifest(options: DatasetOptions) -> dict[str, dict[str, Any]]:
     """Return all that the bytes of a dataset depend on, by stage and name; fit for JSON."""
     listed = as_dict(options)
     # How the work was shared out changes nothing, and the method of sampling is the kind of the sample.
@@ -20,8 +20,8 @@ def recorded_options(options: DatasetOptions) -> dict[str, dict[str, Any]]:
     return {stage: listed[stage] for stage in stages}
 
 
-def options_recorded(listed: Mapping[str, Mapping[str, Any]], **run: Any) -> DatasetOptions:
-    """Return the options that ``recorded_options`` listed, and those of this run.
+def options_from_manifest(listed: Mapping[str, Mapping[str, Any]], **run: Any) -> DatasetOptions:
+    """Return the options that ``options_for_manifest`` listed, and those of this run.
 
     Raises
     ------

@@ -16,7 +16,7 @@ PERCENTILES = (0, 5, 50, 95, 100)
 
 
 @dataclass(frozen=True)
-class SampleFacts:
+class SampleStatistics:
     """Percentiles (0, 5, 50, 95, 100) of what is known of the points, by name, and what the sample holds besides."""
 
     points: int
@@ -24,7 +24,7 @@ class SampleFacts:
     ranges: dict[str, NDArray[np.float64]]
 
 
-def sample_facts(sample: Sample, options: GroundTruthOptions) -> SampleFacts:
+def sample_statistics(sample: Sample, options: GroundTruthOptions) -> SampleStatistics:
     """Return the facts of a sample whose metric is that of `options`."""
     spacing = spacing_of(sample, options)
     stretch = stretches(sample.curvatures, options, spacing)
@@ -39,6 +39,6 @@ def sample_facts(sample: Sample, options: GroundTruthOptions) -> SampleFacts:
         "distance to the surface": np.linalg.norm(sample.points - sample.surface_points, axis=1),
     }
     optional = tuple(name for name in ("estimated_normals", "sensors") if getattr(sample, name) is not None)
-    return SampleFacts(
+    return SampleStatistics(
         len(sample.points), optional, {name: np.percentile(values, PERCENTILES) for name, values in ranges.items()}
     )

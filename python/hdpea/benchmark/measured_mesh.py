@@ -12,7 +12,7 @@ from hdpea.runtime.clock import cpu_seconds, peak_of_programs_bytes, peak_reside
 
 
 @dataclass(frozen=True)
-class Made:
+class MeasuredMesh:
     """A mesh; seconds on the clock, and of all cores together; the peak memory of the process, in bytes."""
 
     mesh: TriangleMesh
@@ -20,13 +20,13 @@ class Made:
     cpu_seconds: float
     peak_bytes: int
 
-    def then(self, last: Made) -> Made:
+    def then(self, last: MeasuredMesh) -> MeasuredMesh:
         """Return what came out `last`, and what both steps took together."""
         peak = max(self.peak_bytes, last.peak_bytes)
-        return Made(last.mesh, self.seconds + last.seconds, self.cpu_seconds + last.cpu_seconds, peak)
+        return MeasuredMesh(last.mesh, self.seconds + last.seconds, self.cpu_seconds + last.cpu_seconds, peak)
 
 
-def made_by(make: Callable[[], TriangleMesh]) -> Made:
+def measured(make: Callable[[], TriangleMesh]) -> MeasuredMesh:
     """Make a mesh, and measure that, programs that it runs included."""
     started, worked, largest = time.perf_counter(), cpu_seconds(), peak_of_programs_bytes()
     mesh = make()
@@ -34,4 +34,4 @@ def made_by(make: Callable[[], TriangleMesh]) -> Made:
     programs = peak_of_programs_bytes()
     # No larger than before: it may be that of a compiler that ran for something else.
     peak = max(peak_resident_bytes(), programs if programs > largest else 0)
-    return Made(mesh, seconds, cpu, peak)
+    return MeasuredMesh(mesh, seconds, cpu, peak)

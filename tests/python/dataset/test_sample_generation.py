@@ -11,12 +11,12 @@ import pytest
 import trimesh
 
 from hdpea.dataset.augmentation import TRANSFORMS
-from hdpea.dataset.building import Task, make_samples, seed_of
+from hdpea.dataset.build import Task, make_samples, seed_of
 from hdpea.dataset.ground_truth import PointTruth
-from hdpea.dataset.making import make_sample
 from hdpea.dataset.options import DatasetOptions
 from hdpea.dataset.sample_file import decoded
-from hdpea.dataset.sources import MeshSource
+from hdpea.dataset.sample_generation import make_sample
+from hdpea.dataset.sources import Source
 from hdpea.geometry.unit_frame import UnitFrame
 from hdpea.options.settings import filled
 
@@ -30,7 +30,7 @@ class _Embedded:
 
 @pytest.fixture(autouse=True)
 def _stand_in(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("hdpea.dataset.making.embed_mesh", lambda *_: _Embedded())
+    monkeypatch.setattr("hdpea.dataset.sample_generation.embed_mesh", lambda *_: _Embedded())
 
 
 @pytest.fixture
@@ -71,7 +71,7 @@ def test_normals_are_estimated_if_asked_for(ball: trimesh.Trimesh) -> None:
 
 def test_a_release_holds_all_augmentations(ball: trimesh.Trimesh, tmp_path: Path) -> None:
     ball.export(tmp_path / "ball.ply")
-    task = Task(MeshSource("ball", "ball.ply", tmp_path / "ball.ply"), options(augmented=True), seed_of("ball", 0), 1)
+    task = Task(Source("ball", "ball.ply", tmp_path / "ball.ply"), options(augmented=True), seed_of("ball", 0), 1)
     plain, *others = make_samples(task)
     assert plain.augmentation is None
     assert {each.augmentation for each in others} == set(TRANSFORMS) - {"identity"}

@@ -11,7 +11,7 @@ import pytest
 from helpers import dataset_standins
 from helpers.dataset_standins import open_mesh, write_meshes
 
-from hdpea.dataset.building import build_dataset, seed_of
+from hdpea.dataset.build import build_dataset, seed_of
 from hdpea.dataset.loading import Dataset
 from hdpea.dataset.manifest import Manifest, MeshEntry, read_manifest
 from hdpea.dataset.options import DatasetOptions
@@ -21,7 +21,7 @@ from hdpea.options.settings import filled
 
 @pytest.fixture(autouse=True)
 def _stand_in(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("hdpea.dataset.building.make_samples", dataset_standins.make_samples)
+    monkeypatch.setattr("hdpea.dataset.build.make_samples", dataset_standins.make_samples)
 
 
 def options(points: int = 100, seed: int = 0, jobs: int = 1, time_limit: float = 60) -> DatasetOptions:
@@ -200,7 +200,7 @@ def test_other_meshes_versions_and_folders_are_refused(tmp_path: Path, monkeypat
         build_dataset(str(meshes), meshes, options())
     with pytest.raises(UsageError, match="Cannot write to"):
         build_dataset(str(meshes), meshes / "a.ply", options())
-    monkeypatch.setattr("hdpea.dataset.building.version", lambda: "9")
+    monkeypatch.setattr("hdpea.dataset.build.version", lambda: "9")
     with pytest.raises(UsageError, match="this is 9"):
         build_dataset(str(meshes), tmp_path / "out", options())
 
