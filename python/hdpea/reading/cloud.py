@@ -57,7 +57,7 @@ class PointCloud:
         """Return from where each point was seen, (n, 3), if the file says so: in sensor_x, y and z, or in sensor."""
         if "sensor" in self.attributes:
             array = np.asarray(self.attributes["sensor"])
-        elif all(np.ndim(self.attributes.get(name)) == 1 for name in SENSOR_NAMES):
+        elif all(name in self.attributes and self.attributes[name].ndim == 1 for name in SENSOR_NAMES):
             array = np.stack([self.attributes[name] for name in SENSOR_NAMES], axis=1)
         else:
             return None
