@@ -63,16 +63,25 @@ def core_errors_translated() -> Iterator[None]:
     """
     try:
         yield
-    except MemoryError as error:
-        raise HdpeaError("There is not enough memory.", "`hdpea info` says what a run needs.") from error
-    except (ValueError, RuntimeError) as error:
+    except (MemoryError, ValueError, RuntimeError) as error:
         # Imported this late because the command line must start without the core.
         from hdpea import _core
 
+        # torch has no error of its own for it.
+        if isinstance(error, MemoryError) or "can't allocate memory" in str(error):
+            raise HdpeaError("There is not enough memory.", "`hdpea info` says what a run needs.") from error
         if isinstance(error, _core.InvalidArgument):
-            raise UsageError(str(error)) from error
+            hint = "A stage was given what it does not take: check the arrays and lengths that you gave."
+            raise UsageError(_sentence(error), hint) from error
         if isinstance(error, _core.CannotReconstruct):
-            raise CannotReconstruct(str(error)) from error
+            hint = "The points may lie in a few places, or be spread too unevenly."
+            raise CannotReconstruct(_sentence(error), hint) from error
         if isinstance(error, _core.Cancelled):
             raise Interrupted from error
         raise
+
+
+def _sentence(error: Exception) -> str:
+    """Return the message of the core, which knows no users, as a sentence."""
+    message = str(error)
+    return f"{message[:1].upper()}{message[1:]}."

@@ -9,6 +9,7 @@ import numpy as np
 
 from hdpea import _core
 from hdpea.embedding.embedded import Embedded
+from hdpea.errors import UsageError
 from hdpea.geometry.metric import BENDING_LENGTH, CURVATURE_RADIUS, ScaledMetric
 from hdpea.options import EmbeddingOptions
 from hdpea.options.choice import Choice
@@ -24,6 +25,11 @@ def embed_directly(
 
     Curvature is fitted to the normals, a soup of tangential Delaunay triangles stands in for a mesh, and
     psi is solved for on it (``solve_embedding`` of the core).
+
+    Raises
+    ------
+    UsageError
+        If a length in the options is longer than the diagonal of the cloud.
     """
     points, normals = surface.points_in_unit, surface.normals
     soup = triangle_soup(points, normals, surface.neighbors)
@@ -32,7 +38,10 @@ def embed_directly(
 
     def choose(name: str, given: Length | None, per_spacing: float) -> float:
         if given is not None:
-            return surface.frame.length_to_unit(given)
+            length = surface.frame.length_to_unit(given)
+            if length > 1:
+                raise UsageError(f"{name} {given} is longer than the diagonal of the cloud.", "Give a shorter one.")
+            return length
         chosen = per_spacing * spacing
         why = f"{per_spacing:g} times the spacing of {vertices:,} particles on the surface"
         choices.append(Choice(name, chosen * surface.frame.diagonal, "world units", why))

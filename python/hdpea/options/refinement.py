@@ -13,4 +13,4 @@ class RefinementOptions(Checked):
     """How the mesh is fitted to the points afterwards (``hdpea.mesh.refinement``)."""
 
     refine: bool = option(True, "fit the vertices to the points by least squares")
-    rounds: int = option(2, "rounds of projection and fitting", minimum=0)
+    rounds: int = option(2, "rounds of projection and fitting", minimum=0, maximum=1_000)

@@ -10,19 +10,27 @@ from contextlib import AbstractContextManager, contextmanager, nullcontext
 
 from hdpea.errors import Interrupted
 
-ProgressCallback = Callable[[str, float], bool]
-"""Takes the name of a phase and the fraction of it done, in [0, 1]; False asks to stop."""
+ProgressCallback = Callable[[str, float], object]
+"""Takes the name of a phase and the fraction of it done, in [0, 1].
+
+What it returns asks to stop if it is false, as False and 0 are; None, as of a function that returns nothing, goes on.
+"""
 
 
 def tell(progress: ProgressCallback | None, phase: str, fraction: float) -> None:
     """Report progress from a Python stage; raise ``Interrupted`` if the callback asks to stop."""
-    if progress is not None and not progress(phase, fraction):
+    if not of_phase(progress, phase)(fraction):
         raise Interrupted
 
 
 def of_phase(progress: ProgressCallback | None, phase: str) -> Callable[[float], bool]:
-    """Return the callback for one phase in the form that the core takes."""
-    return lambda fraction: progress is None or progress(phase, fraction)
+    """Return the callback for one phase in the form that the core takes: of the fraction alone, True to go on."""
+
+    def goes_on(fraction: float) -> bool:
+        answer = None if progress is None else progress(phase, fraction)
+        return answer is None or bool(answer)
+
+    return goes_on
 
 
 def shown(quiet: bool = False) -> AbstractContextManager[ProgressCallback | None]:

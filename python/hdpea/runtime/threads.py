@@ -11,10 +11,13 @@ from contextlib import contextmanager
 # fifty times slower. Read by OpenMP once, when torch is imported.
 os.environ.setdefault("OMP_WAIT_POLICY", "PASSIVE")
 
+MOST_THREADS = 256
+"""More than any machine gains from; memory is reserved for each."""
+
 
 @contextmanager
 def limited_threads(count: int) -> Iterator[None]:
-    """Limit the core and torch to `count` threads meanwhile; 0: no limit."""
+    """Limit the core and torch to `count` threads meanwhile, ``MOST_THREADS`` at most; 0: no limit."""
     if count == 0:
         # Nothing to tell torch, which a run may not need, and takes seconds to load.
         yield
@@ -23,7 +26,7 @@ def limited_threads(count: int) -> Iterator[None]:
 
     from hdpea import _core
 
-    before = torch.get_num_threads()
+    before, count = torch.get_num_threads(), min(count, MOST_THREADS)
     torch.set_num_threads(count)
     _core.set_thread_limit(count)
     try:
