@@ -171,6 +171,7 @@ SimplifiedMesh simplify_mesh(const PointsRef& vertices, const CoordinatesRef& co
                              const MeshBudget& budget, const SimplificationOptions& options, const Progress& progress) {
   require_rows(coordinates, vertices.rows(), "coordinates");
   require_finite(coordinates, "coordinates");
+  require(budget.vertices >= 0 && budget.faces >= 0, "a budget must be 0 or more");
   require(options.evenness >= 0 && options.border >= 0, "evenness and border must be 0 or more");
   const MeshCheck check = check_mesh(vertices, faces);
   require(check.manifold() && check.oriented(), "simplification needs a manifold, oriented mesh");

@@ -121,7 +121,7 @@ def broken(value: Any) -> Iterator[tuple[Any, bool]]:
     yield value[:, ::-1] if value.ndim == 2 else value[::-1], False  # not contiguous
     yield np.zeros((3, 3, 3)), True
     if value.dtype.kind == "f":
-        for bad in (np.nan, np.inf):
+        for bad in (np.nan, np.inf, -np.inf):
             spoilt = value.copy()
             spoilt.flat[-1] = bad
             yield spoilt, True
