@@ -13,6 +13,7 @@ from torch import Tensor
 
 from hdpea import _core
 from hdpea.geometry.metric import CURVATURE_RADIUS
+from hdpea.geometry.tensors import symmetric_tensors, tangent_directions
 
 FAR = 8192.0
 """Distance from the centre, in spacings, beyond which gaps are narrowed: float32 and voxels reach little farther."""
@@ -129,10 +130,5 @@ def shape_operators(
 ) -> NDArray[np.float64]:
     """Return the shape operator (n, 6) of a cloud as ``Clouds.shape``, fitted within `radius` spacings."""
     curvature = _core.estimate_curvature(points, normals, neighbors, radius)
-    first = curvature.direction1
-    second = np.cross(normals, first)
-    k1, k2 = curvature.principal.T[:, :, None]
-    rows, columns = (0, 1, 2, 0, 0, 1), (0, 1, 2, 1, 2, 2)
-    operators: NDArray[np.float64] = k1 * first[:, rows] * first[:, columns]
-    operators += k2 * second[:, rows] * second[:, columns]
-    return operators
+    operators = symmetric_tensors(curvature.principal, tangent_directions(normals, curvature.direction1))
+    return operators[:, (0, 1, 2, 0, 0, 1), (0, 1, 2, 1, 2, 2)]
