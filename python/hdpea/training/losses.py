@@ -93,8 +93,8 @@ def loss_parts(psi: Tensor, truth: Truth, options: LossOptions) -> dict[str, Ten
     """
     errors, true_distances = distance_errors(psi, truth, options.distance_neighbors)
     around = Neighborhoods.of(truth.points, truth.normals, truth.neighbors[:, :FIT_NEIGHBORS])
-    gradient, left = around.fit(psi)
-    true_gradient, true_left = around.fit(truth.psi)
+    gradient, residual = around.fit(psi)
+    true_gradient, true_residual = around.fit(truth.psi)
 
     def mean(each: Tensor) -> Tensor:
         return (each * truth.weights).sum()
@@ -103,7 +103,7 @@ def loss_parts(psi: Tensor, truth: Truth, options: LossOptions) -> dict[str, Ten
     distance = mean(errors.abs().mean(dim=1)) / scale
     metric = mean(metric_errors(gradient, true_gradient))
     # Less of it than the truth has is no merit: sharp edges bend.
-    flatness = mean((left - true_left).clamp_min(0))
+    flatness = mean((residual - true_residual).clamp_min(0))
     apart = psi - truth.psi
     losses = {
         "local": options.metric_weight * metric
