@@ -81,7 +81,7 @@ def roughness(sample: Sample) -> Rows:
 
 
 def _offsets(rows: Rows, neighbors: NDArray[np.int64]) -> tuple[Rows, NDArray[np.bool_]]:
-    """Return the offsets (n, k, d) of the neighbours, 0 where there is none, and the mask (n, k) of those that exist."""
+    """Return the offsets (n, k, d) of the neighbours, 0 where there is none, and the mask (n, k) of neighbours."""
     known = neighbors >= 0
     return np.where(known[:, :, None], rows[neighbors] - rows[:, None], 0), known
 
