@@ -24,7 +24,7 @@ PACKAGE_SOURCES := CMakeLists.txt pyproject.toml $(shell find src python -type f
 CPP_SOURCES := $(shell find src tests/cpp -name '*.[ch]pp')
 
 .NOTPARALLEL:
-.PHONY: help setup demo test lint format core sanitize pytest bench-setup results losses trained-losses clean debian
+.PHONY: help setup demo test lint format core sanitize pytest fuzz bench-setup results losses trained-losses clean debian
 
 help:
 	@echo "make demo      reconstruct two real scans into $(DEMO)/"
@@ -33,6 +33,7 @@ help:
 	@echo "make core      the C++ core: build with warnings as errors, run its tests"
 	@echo "make sanitize  the same under the address and undefined-behaviour sanitizers"
 	@echo "make pytest    the Python tests, on the installed package"
+	@echo "make fuzz      random clouds and damaged files, see docs/robustness.md"
 	@echo "make results   one suite of benchmarks, see docs/benchmark.md; make losses trains for one"
 	@echo "make setup     Debian packages, $(VENV)/, the package in it"
 	@echo "make format    let ruff and clang-format rewrite the sources"
@@ -135,6 +136,13 @@ sanitize: debian $(VENV)/.dependencies
 
 pytest: setup
 	$(BIN)/pytest
+
+# Random clouds and damaged files, for as long as it takes: make fuzz CLOUDS=10000 FILES=5000 SEED=0
+CLOUDS ?= 10000
+FILES ?= 5000
+SEED ?= 0
+fuzz: setup
+	PYTHONPATH=tests/python $(BIN)/python benchmarks/fuzz.py --clouds $(CLOUDS) --files $(FILES) --seed $(SEED)
 
 clean:
 	rm -rf build $(VENV) $(DEMO)

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -10,6 +11,21 @@ from numpy.typing import NDArray
 
 from hdpea.errors import CannotReconstruct
 from hdpea.options.lengths import Length
+
+
+def diagonal_of(lowest: NDArray[np.float64], highest: NDArray[np.float64]) -> float:
+    """Return the length of the diagonal of a box, whatever its magnitude; infinity if no double holds it."""
+    with np.errstate(over="ignore"):
+        extents = highest - lowest
+    largest = float(extents.max())
+    if not math.isfinite(largest) or largest == 0:
+        return largest
+    # A power of two, by which scaling is exact: squares of lengths beyond 1e154 overflow, below 1e-154 they vanish.
+    _, exponent = math.frexp(largest)
+    try:
+        return math.ldexp(float(np.linalg.norm(np.ldexp(extents, -exponent))), exponent)
+    except OverflowError:
+        return math.inf
 
 
 @dataclass(frozen=True)
@@ -34,12 +50,14 @@ class UnitFrame:
         Raises
         ------
         CannotReconstruct
-            If all points are equal.
+            If all points are equal, or the diagonal is no double.
         """
         lowest, highest = points_in_world.min(axis=0), points_in_world.max(axis=0)
-        diagonal = float(np.linalg.norm(highest - lowest))
+        diagonal = diagonal_of(lowest, highest)
         if diagonal == 0:
             raise CannotReconstruct("All points are equal.", "A surface needs points that are spread over it.")
+        if not math.isfinite(diagonal):
+            raise CannotReconstruct("The coordinates are too large for double precision.", "Scale the points down.")
         return cls(lowest + (highest - lowest) / 2, diagonal)
 
     def to_unit(self, points_in_world: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -3,6 +3,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
+
 import torch
 from torch import Tensor, nn
 from torch.nn import functional
@@ -13,6 +16,38 @@ from hdpea.network.voxels import Voxels
 def rows(values: Tensor, index: Tensor) -> Tensor:
     """Return values (n, c) at index (...) as (..., c); unlike indexing, its gradient has one value on any threads."""
     return functional.embedding(index, values)
+
+
+FEW_ROWS = 64
+"""Matrix products of fewer rows are computed by one thread."""
+
+
+@contextmanager
+def fixed_order(rows: int, columns: int) -> Iterator[None]:
+    """Compute small matrix products by one thread, so that the number of threads changes no bit of the result.
+
+    For few rows, and for a single column, the BLAS splits the work such that sums run in another order for another
+    number of threads. Larger products are split by rows, each of which is summed in one order. The small ones would
+    gain nothing from more threads.
+    """
+    threads = torch.get_num_threads()
+    if threads == 1 or (rows >= FEW_ROWS and columns > 1):
+        yield
+        return
+    torch.set_num_threads(1)
+    try:
+        yield
+    finally:
+        torch.set_num_threads(threads)
+
+
+class Linear(nn.Linear):
+    """A linear layer whose result does not depend on the number of threads."""
+
+    def forward(self, x: Tensor) -> Tensor:
+        """Map features (..., inputs) to (..., outputs)."""
+        with fixed_order(x.shape[:-1].numel(), self.out_features):
+            return super().forward(x)
 
 
 class SparseConvolution(nn.Module):
@@ -27,9 +62,11 @@ class SparseConvolution(nn.Module):
     def forward(self, x: Tensor, voxels: Voxels) -> Tensor:
         """Map features (v, c) to (v, c)."""
         sources, targets, counts = voxels.neighborhood
-        parts = torch.split(rows(x, sources), counts)
-        moved = torch.cat([part @ weight for part, weight in zip(parts, self.weight, strict=True)])  # (pairs, c)
-        return torch.zeros_like(x).index_add(0, targets, moved)
+        moved = []
+        for part, weight in zip(torch.split(rows(x, sources), counts), self.weight, strict=True):
+            with fixed_order(len(part), weight.shape[1]):
+                moved.append(part @ weight)
+        return torch.zeros_like(x).index_add(0, targets, torch.cat(moved))  # moved: (pairs, c)
 
 
 class PatchAttention(nn.Module):
@@ -38,8 +75,8 @@ class PatchAttention(nn.Module):
     def __init__(self, channels: int, heads: int, patch_size: int) -> None:
         super().__init__()
         self.heads, self.patch_size = heads, patch_size
-        self.qkv = nn.Linear(channels, 3 * channels)
-        self.out = nn.Linear(channels, channels)
+        self.qkv = Linear(channels, 3 * channels)
+        self.out = Linear(channels, channels)
 
     def forward(self, x: Tensor, voxels: Voxels, order: Tensor) -> Tensor:
         """Map features (v, c) to (v, c)."""
@@ -96,14 +133,14 @@ class Block(nn.Module):
     def __init__(self, channels: int, head_width: int, patch_size: int, mlp_ratio: int) -> None:
         super().__init__()
         self.convolution = SparseConvolution(channels)
-        self.position = nn.Sequential(nn.Linear(channels, channels), nn.LayerNorm(channels))
+        self.position = nn.Sequential(Linear(channels, channels), nn.LayerNorm(channels))
         self.before_attention = nn.LayerNorm(channels)
         self.attention = PatchAttention(channels, channels // head_width, patch_size)
         self.mlp = nn.Sequential(
             nn.LayerNorm(channels),
-            nn.Linear(channels, mlp_ratio * channels),
+            Linear(channels, mlp_ratio * channels),
             nn.GELU(),
-            nn.Linear(mlp_ratio * channels, channels),
+            Linear(mlp_ratio * channels, channels),
         )
 
     def forward(self, x: Tensor, voxels: Voxels, order: Tensor) -> Tensor:

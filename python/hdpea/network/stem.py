@@ -6,7 +6,7 @@ from __future__ import annotations
 import torch
 from torch import Tensor, nn
 
-from hdpea.network.layers import rows
+from hdpea.network.layers import Linear, rows
 
 EDGE_FEATURES = 13
 
@@ -42,11 +42,11 @@ class EdgeConvolution(nn.Module):
 
     def __init__(self, inputs: int, channels: int) -> None:
         super().__init__()
-        self.edge = nn.Linear(EDGE_FEATURES, channels)
+        self.edge = Linear(EDGE_FEATURES, channels)
         # What depends on the neighbour alone is mapped before it is spread to the edges: k times less to do.
-        self.neighbor = nn.Linear(inputs, channels, bias=False) if inputs else None
-        self.mixed = nn.Sequential(nn.GELU(), nn.Linear(channels, channels), nn.GELU())
-        self.out = nn.Sequential(nn.Linear(2 * channels + inputs, channels), nn.LayerNorm(channels))
+        self.neighbor = Linear(inputs, channels, bias=False) if inputs else None
+        self.mixed = nn.Sequential(nn.GELU(), Linear(channels, channels), nn.GELU())
+        self.out = nn.Sequential(Linear(2 * channels + inputs, channels), nn.LayerNorm(channels))
 
     def forward(self, x: Tensor | None, edges: Tensor, neighbors: Tensor) -> Tensor:
         """Map features (n, inputs), or none, and edges (n, k, 13) to (n, channels)."""

@@ -10,7 +10,7 @@ from hdpea.geometry.metric import ScaledMetric
 from hdpea.network.averaging import Neighborhoods, averaged
 from hdpea.network.clouds import Clouds
 from hdpea.network.curves import CURVES
-from hdpea.network.layers import Block, rows
+from hdpea.network.layers import Block, Linear, rows
 from hdpea.network.options import NetworkOptions
 from hdpea.network.stem import EdgeStem
 from hdpea.network.voxels import MIDDLE, Voxels
@@ -69,9 +69,9 @@ class PointTransformer(nn.Module):
         self.decoder = nn.ModuleList(self._blocks(*each) for each in decoder)
         width = o.decoder_channels[0] if o.decoder_channels else o.channels[0]
         self.leave = _mapped(width + point_channels, width)
-        self.affine = nn.Linear(width, OUTPUTS * 4)
-        self.psi = nn.Linear(width, OUTPUTS)
-        self.gate = nn.Linear(width, 1) if o.normal_gate else None
+        self.affine = Linear(width, OUTPUTS * 4)
+        self.psi = Linear(width, OUTPUTS)
+        self.gate = Linear(width, 1) if o.normal_gate else None
         with torch.no_grad():
             for last in (self.affine, self.psi, self.gate):
                 if last is not None:
@@ -151,7 +151,7 @@ class PointTransformer(nn.Module):
 
 
 def _mapped(inputs: int, outputs: int) -> nn.Sequential:
-    return nn.Sequential(nn.Linear(inputs, outputs), nn.LayerNorm(outputs), nn.GELU())
+    return nn.Sequential(Linear(inputs, outputs), nn.LayerNorm(outputs), nn.GELU())
 
 
 def _pooled(x: Tensor, index: Tensor, count: int) -> Tensor:

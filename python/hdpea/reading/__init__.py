@@ -33,8 +33,9 @@ _FORMATS: list[tuple[re.Pattern[bytes], Callable[[bytes], PointCloud]]] = [
     (re.compile(rb"ply\s"), parse_ply),
     (re.compile(rb"\x93NUMPY"), parse_npy),
     (re.compile(rb"PK\x03\x04"), parse_npz),
-    (re.compile(rb"(\s|#[^\n]*\n)*(ST)?C?N?OFF\b"), parse_off),
-    (re.compile(rb"(\s|#[^\n]*\n)*((o|g|s|mtllib|usemtl)\s[^\n]*\n\s*)*v[nt]?\s"), parse_obj),
+    # Possessive, since a file of nothing but blank lines has as many ways to match as it has lines.
+    (re.compile(rb"(?:\s+|#[^\n]*\n)*+(ST)?C?N?OFF\b"), parse_off),
+    (re.compile(rb"(?:\s+|#[^\n]*\n|(?:o|g|s|mtllib|usemtl)\s[^\n]*\n)*+v[nt]?\s"), parse_obj),
 ]
 # What the libraries that read those formats raise over nonsense.
 DAMAGE = (

@@ -4,8 +4,9 @@
 from __future__ import annotations
 
 import io
+import math
 import zipfile
-from typing import Any
+from typing import IO, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,6 +17,10 @@ from hdpea.reading.tables import name_columns
 
 MOST_COLUMNS = 64
 """More than any per-point table has: an array this wide has its points in columns."""
+
+MOST_UNPACKED, ALWAYS_UNPACKED = 100, 1 << 28
+"""How many times its size an archive may unpack to, and the bytes that any may."""
+
 _POINT_KEYS = ("points", "xyz", "pos", "vertices", "arr_0")
 _HINT = "Save an array of shape (n, 3), or an NPZ of `points` and, if known, `normals`."
 
@@ -43,25 +48,59 @@ def parse_npz(data: bytes) -> PointCloud:
         If it holds no such points.
     """
     with zipfile.ZipFile(io.BytesIO(data)) as archive:
-        arrays = {name.removesuffix(".npy"): _load(archive.read(name)) for name in archive.namelist()}
-    key = next((key for key in _POINT_KEYS if key in arrays), None)
-    if key is None:
-        raise UnreadableInput(f"it has no array named points (found: {', '.join(arrays)}).", _HINT)
+        members = {name.removesuffix(".npy"): name for name in archive.namelist() if name.endswith(".npy")}
+        _require_sane_size(archive, len(data))
+        key = next((key for key in _POINT_KEYS if key in members), None)
+        if key is None:
+            raise UnreadableInput(f"it has no array named points (found: {', '.join(members) or 'none'}).", _HINT)
+        shapes = {name: _header(archive.open(member)) for name, member in members.items()}
+        _require_rows(*shapes[key], key)
+        arrays = {
+            name: _load(archive.read(members[name]))
+            for name, (shape, _) in shapes.items()
+            if shape[:1] == shapes[key][0][:1]
+        }
     cloud = from_columns(name_columns(_as_rows(arrays.pop(key), key)), f"NPZ, array {key!r}")
-    per_point = {name: array for name, array in arrays.items() if array.shape[:1] == cloud.points.shape[:1]}
-    normals = per_point.pop("normals", None)
+    normals = arrays.pop("normals", None)
     if normals is not None:
         normals = _as_rows(normals, "normals")[:, :3]
     return PointCloud(
-        cloud.points, cloud.normals if normals is None else normals, {**cloud.attributes, **per_point}, cloud.format
+        cloud.points, cloud.normals if normals is None else normals, {**cloud.attributes, **arrays}, cloud.format
     )
 
 
+def _require_sane_size(archive: zipfile.ZipFile, size: int) -> None:
+    """Refuse an archive of `size` bytes that would unpack to far more than coordinates can be compressed from."""
+    unpacked = sum(member.file_size for member in archive.infolist())
+    if unpacked > max(MOST_UNPACKED * size, ALWAYS_UNPACKED):
+        raise UnreadableInput(f"its {size:,} bytes would unpack to {unpacked:,}.", "Save the points alone.")
+
+
+def _header(stream: IO[bytes]) -> tuple[tuple[int, ...], np.dtype[Any]]:
+    """Return the shape and type that an array's header announces."""
+    version = np.lib.format.read_magic(stream)
+    read = np.lib.format.read_array_header_1_0 if version == (1, 0) else np.lib.format.read_array_header_2_0
+    shape, _, dtype = read(stream)
+    return shape, dtype
+
+
 def _load(data: bytes) -> NDArray[Any]:
+    """Return an array, of which no more memory is taken than it has data."""
+    stream = io.BytesIO(data)
+    shape, dtype = _header(stream)
+    if math.prod(shape) * dtype.itemsize > len(data) - stream.tell():
+        raise UnreadableInput(
+            f"its header announces an array of shape {shape}, for which it is too short.",
+            "It may have been cut off while being copied.",
+        )
     return np.lib.format.read_array(io.BytesIO(data), allow_pickle=False)
 
 
 def _as_rows(array: NDArray[Any], name: str) -> NDArray[np.float64]:
-    if array.ndim != 2 or not 3 <= array.shape[1] <= MOST_COLUMNS or array.dtype.kind not in "fiu":
-        raise UnreadableInput(f"{name} is {array.dtype} of shape {array.shape}, not numbers of shape (n, 3).", _HINT)
+    _require_rows(array.shape, array.dtype, name)
     return array.astype(np.float64)
+
+
+def _require_rows(shape: tuple[int, ...], dtype: np.dtype[Any], name: str) -> None:
+    if len(shape) != 2 or not 3 <= shape[1] <= MOST_COLUMNS or dtype.kind not in "fiu":
+        raise UnreadableInput(f"{name} is {dtype} of shape {shape}, not numbers of shape (n, 3).", _HINT)

@@ -57,11 +57,12 @@ class PointCloud:
         """Return from where each point was seen, (n, 3), if the file says so: in sensor_x, y and z, or in sensor."""
         if "sensor" in self.attributes:
             array = np.asarray(self.attributes["sensor"])
-            is_positions = array.shape == self.points.shape and array.dtype.kind in "fiu"
-            return array.astype(np.float64) if is_positions else None
-        if not all(name in self.attributes for name in SENSOR_NAMES):
+        elif all(name in self.attributes and self.attributes[name].ndim == 1 for name in SENSOR_NAMES):
+            array = np.stack([self.attributes[name] for name in SENSOR_NAMES], axis=1)
+        else:
             return None
-        return np.stack([np.asarray(self.attributes[name], dtype=np.float64) for name in SENSOR_NAMES], axis=1)
+        is_positions = array.shape == self.points.shape and array.dtype.kind in "fiu"
+        return array.astype(np.float64) if is_positions else None
 
     def at(self, rows: NDArray[np.int64]) -> PointCloud:
         """Return the cloud of the points in these rows (m,)."""
@@ -96,7 +97,10 @@ def from_columns(columns: Mapping[str, NDArray[Any]], format: str, notes: Iterab
     def take(names: tuple[str, ...]) -> NDArray[np.float64] | None:
         if not all(name in lowered for name in names):
             return None
-        return np.stack([np.asarray(columns[lowered.pop(name)], dtype=np.float64) for name in names], axis=1)
+        taken = [columns[lowered.pop(name)] for name in names]
+        if any(column.ndim != 1 or column.dtype.kind not in "fiu" for column in taken):
+            raise UnreadableInput(f"its {', '.join(names)} are not columns of numbers.", "Save one number in each.")
+        return np.stack([column.astype(np.float64) for column in taken], axis=1)
 
     points = take(("x", "y", "z"))
     if points is None:

@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from plyfile import PlyData, PlyListProperty
+from plyfile import PlyData, PlyListProperty, PlyProperty
 
 from hdpea.errors import UnreadableInput
 from hdpea.reading.cloud import MESH_NOTE, PointCloud, from_columns
@@ -40,8 +40,30 @@ def parse_ply(data: bytes) -> PointCloud:
     counts = {name.decode(): int(count) for name, count in _ELEMENT.findall(head)}
     if not counts.get("vertex"):
         raise UnreadableInput("there are no points in it.", "PLY points are elements named 'vertex'.")
-    columns = _read_plain(header, data, body_start, counts["vertex"]) if _is_plain(header) else _read_any(data)
+    if _is_plain(header):
+        columns = _read_plain(header, data, body_start, counts["vertex"])
+    else:
+        _require_room(header, counts, len(data) - body_start)
+        columns = _read_any(data)
     return from_columns(columns, _FORMAT_NAMES[header.byte_order], [MESH_NOTE] if counts.get("face") else [])
+
+
+def _require_room(header: PlyData, counts: Mapping[str, int], room: int) -> None:
+    """Refuse a header that promises more than a body of `room` bytes can hold, before memory is taken for it."""
+    for element in header.elements:
+        least = max(sum(_least_bytes(each, header.text) for each in element.properties), 1)
+        if counts.get(element.name, 0) * least > room + header.text:
+            raise UnreadableInput(
+                f"it cannot hold the {counts[element.name]:,} rows of {element.name!r} that its header announces.",
+                "It may have been cut off while being copied.",
+            )
+
+
+def _least_bytes(each: PlyProperty, text: bool) -> int:
+    """Return the fewest bytes that a property takes: as text a digit and what ends it, a list by its length alone."""
+    if text:
+        return 2
+    return int(np.dtype(each.len_dtype if isinstance(each, PlyListProperty) else each.dtype()).itemsize)
 
 
 def _is_plain(header: PlyData) -> bool:

@@ -11,6 +11,11 @@ from hdpea.reading.cloud import PointCloud, from_columns
 from hdpea.reading.tables import columns_by_name, comma_is_decimal, is_number, name_columns, parse_table
 
 _COMMENT = re.compile(r"(#|//|%)[^\n]*")
+_UNREAD = re.compile(r"(?:\s+|(?:#|//|%)[^\n]*(?:\n|$))++")
+"""Blank lines and comments; possessive, since there may be millions."""
+_NAMES = re.compile(r"^(?:#|//|%)[^\n]*\bx\b[^\n]*", re.MULTILINE | re.IGNORECASE)
+MOST_HEADER_LINES = 1_000
+"""Lines before the first point, comments and blank ones aside, after which a text is no table."""
 _SEPARATORS = str.maketrans(",;\t", "   ")
 
 
@@ -52,19 +57,29 @@ class _Start:
 def _find_numbers(text: str) -> _Start:
     header: list[str] = []
     offset = 0
-    for line_number, line in enumerate(text.splitlines(keepends=True), 1):
+    for _ in range(MOST_HEADER_LINES):
+        unread = _UNREAD.match(text, offset)
+        if unread is not None:
+            header = next((names for line in _NAMES.findall(unread[0]) if (names := _named(line))), header)
+            offset = unread.end()
+        line = text[offset : text.find("\n", offset) + 1] or text[offset:]
         content = _COMMENT.sub("", line)
         tokens = _tokens(content)
         if not tokens:
-            commented = _tokens(line.strip().lstrip("#/%"))
-            header = commented if "x" in map(str.lower, commented) else header
-        elif not all(map(is_number, tokens)):
+            break
+        if not all(map(is_number, tokens)):
             header = tokens
         elif len(tokens) > 1:
-            return _Start(offset, line_number, content, header)
+            return _Start(offset, text.count("\n", 0, offset) + 1, content, header)
         # What is left is a single number: the count of points that PTS files begin with.
         offset += len(line)
     raise UnreadableInput("there are no points in it.", "One point a line is expected, as in: 0.1 0.2 0.3")
+
+
+def _named(comment: str) -> list[str]:
+    """Return the words of a comment if they name columns, else none."""
+    words = _tokens(comment.strip().lstrip("#/%"))
+    return words if "x" in map(str.lower, words) else []
 
 
 def _tokens(line: str) -> list[str]:

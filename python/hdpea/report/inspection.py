@@ -9,11 +9,13 @@ import numpy as np
 
 from hdpea import _core
 from hdpea.errors import core_errors_translated
+from hdpea.geometry.unit_frame import UnitFrame, diagonal_of
 from hdpea.options import MeshingOptions
 from hdpea.reading import PointCloud
 from hdpea.report.cost import PEAK_BYTES, seconds_of_run
 from hdpea.surface.normals import ORIENTATION_NEIGHBORS
 from hdpea.surface.orientation import TRUSTED_CONSISTENCY
+from hdpea.surface.surface import median_spacing
 
 
 @dataclass(frozen=True)
@@ -44,7 +46,8 @@ def inspect(cloud: PointCloud) -> CloudFacts:
     """Look at a cleaned cloud."""
     low, high = cloud.points.min(axis=0), cloud.points.max(axis=0)
     vertices = MeshingOptions().vertices_of(len(cloud.points))
-    spacing, agreement = _compare_neighbors(cloud) if len(cloud.points) > 1 else (None, None)
+    diagonal = diagonal_of(low, high)
+    spacing, agreement = _compare_neighbors(cloud) if 0 < diagonal < np.inf else (None, None)
     oriented = agreement is not None and agreement >= TRUSTED_CONSISTENCY
     return CloudFacts(
         format=cloud.format,
@@ -52,7 +55,7 @@ def inspect(cloud: PointCloud) -> CloudFacts:
         attributes=list(cloud.attributes),
         low=low.tolist(),
         high=high.tolist(),
-        diagonal=float(np.linalg.norm(high - low)),
+        diagonal=diagonal,
         spacing=spacing,
         normal_agreement=agreement,
         default_vertices=vertices,
@@ -63,11 +66,11 @@ def inspect(cloud: PointCloud) -> CloudFacts:
 
 
 def _compare_neighbors(cloud: PointCloud) -> tuple[float, float | None]:
-    # Differences of large coordinates lose digits, so the origin comes to the cloud first.
-    centered = cloud.points - cloud.points.mean(axis=0)
+    frame = UnitFrame.around(cloud.points)
+    points = frame.to_unit(cloud.points)
     with core_errors_translated():
-        neighbors = _core.nearest_neighbors(centered, ORIENTATION_NEIGHBORS)
-        spacing = float(np.median(np.linalg.norm(centered[neighbors[:, 0]] - centered, axis=1)))
+        neighbors = _core.nearest_neighbors(points, ORIENTATION_NEIGHBORS)
+        spacing = frame.diagonal * median_spacing(points, neighbors)
         if cloud.normals is None:
             return spacing, None
-        return spacing, _core.orientation_consistency(centered, cloud.normals, neighbors)
+        return spacing, _core.orientation_consistency(points, cloud.normals, neighbors)

@@ -46,12 +46,15 @@ class Distances:
     @classmethod
     def of(cls, distances: NDArray[np.float64], spacing: float) -> Distances:
         """Sum up the distance of each point (n,), n > 0, both in world units."""
+        largest = float(distances.max())
+        # Squares of very large and very small lengths are no doubles.
+        shares = distances / largest if largest > 0 else distances
         return cls(
             spacing=float(spacing),
-            mean=float(distances.mean()),
-            rms=float(np.sqrt(np.mean(distances**2))),
+            mean=largest * float(shares.mean()),
+            rms=largest * float(np.sqrt(np.mean(shares**2))),
             percentile_95=float(np.percentile(distances, 95)),
-            max=float(distances.max()),
+            max=largest,
         )
 
     def as_dict(self) -> dict[str, Any]:

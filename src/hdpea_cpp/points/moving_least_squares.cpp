@@ -4,6 +4,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "hdpea_cpp/base/checks.hpp"
 #include "hdpea_cpp/base/errors.hpp"
@@ -36,6 +37,7 @@ SurfacePlaces moving_least_squares(const PointsRef& places, const PointsRef& nor
     if (radius == 0) return;  // alone
     Eigen::Matrix<double, 6, 6> matrix = Eigen::Matrix<double, 6, 6>::Zero();
     Quadric right = Quadric::Zero();
+    double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
     const auto add = [&](Index j) {
       const Eigen::Vector3d offset = (points.row(j).transpose() - place) / radius;
       const double x = offset.dot(u), y = offset.dot(v);
@@ -45,7 +47,10 @@ SurfacePlaces moving_least_squares(const PointsRef& places, const PointsRef& nor
       Quadric terms;
       terms << 1, x, y, x * x, x * y, y * y;
       matrix.noalias() += weight * terms * terms.transpose();
-      right += weight * offset.dot(normal) * terms;
+      const double height = offset.dot(normal);
+      right += weight * height * terms;
+      lowest = std::min(lowest, height);
+      highest = std::max(highest, height);
     };
     add(i);
     for (Index j : neighbors.row(i)) {
@@ -54,8 +59,8 @@ SurfacePlaces moving_least_squares(const PointsRef& places, const PointsRef& nor
     matrix.diagonal().array() += ridge * matrix.trace();
     const Quadric quadric = matrix.ldlt().solve(right);
     if (!quadric.allFinite()) return;
-    // A quadric that the neighbours do not determine may pass anywhere.
-    moved.points.row(i) += radius * std::clamp(quadric[0], -1.0, 1.0) * normal.transpose();
+    // A quadric that the neighbours do not determine may pass anywhere; the surface lies between them.
+    moved.points.row(i) += radius * std::clamp(quadric[0], lowest, highest) * normal.transpose();
     moved.normals.row(i) = (normal - quadric[1] * u - quadric[2] * v).normalized().transpose();
   });
   return moved;

@@ -35,6 +35,18 @@ def test_the_order_of_points_does_not_matter_to_the_last_bit(network: PointTrans
     np.testing.assert_array_equal(shuffled, predicted(network, points, normals)[order])
 
 
+@pytest.mark.parametrize("count", [40, 150, 2045])
+def test_the_number_of_threads_does_not_matter_to_the_last_bit(network: PointTransformer, count: int) -> None:
+    cloud, before, results = unit_torus(count), torch.get_num_threads(), []
+    try:
+        for threads in (1, 2, 3):
+            torch.set_num_threads(threads)
+            results.append(predicted(network, *cloud))
+    finally:
+        torch.set_num_threads(before)
+    assert all(np.array_equal(results[0], each) for each in results[1:])
+
+
 def test_the_order_within_the_network_matters_to_rounding_alone(network: PointTransformer) -> None:
     points, normals = unit_torus()
     order = np.random.default_rng(1).permutation(len(points))

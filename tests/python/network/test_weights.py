@@ -59,7 +59,8 @@ def test_the_metric_of_the_weights_is_the_one_that_psi_settles_to(tmp_path: Path
 
 def test_the_shipped_weights_give_the_same_psi_whatever_the_threads() -> None:
     assert SHIPPED.stat().st_size < 20e6
-    cloud, before = unit_torus(8000), torch.get_num_threads()
+    # An odd number, so that threads cannot share the rows evenly.
+    cloud, before = unit_torus(8003), torch.get_num_threads()
     try:
         results = []
         for threads in (1, 2):
@@ -67,7 +68,7 @@ def test_the_shipped_weights_give_the_same_psi_whatever_the_threads() -> None:
             results.append(predicted(read_weights(SHIPPED), *cloud))
     finally:
         torch.set_num_threads(before)
-    assert abs(results[0] - results[1]).max() <= 1e-5
+    assert np.array_equal(results[0], results[1])
 
 
 @pytest.mark.parametrize(
@@ -111,7 +112,9 @@ TINY_RECORD = json.loads(json.dumps(asdict(TINY)))
 @pytest.mark.parametrize(
     "network",
     [
-        *("", "{", "[]", "null", "3", '"text"', "[" * 100_000, "9" * 5_000),
+        *("", "{", "[]", "null", "3", '"text"'),
+        pytest.param("[" * 100_000, id="deep"),
+        pytest.param("9" * 5_000, id="huge"),
         *(
             TINY_RECORD | {"channels": channels}
             for channels in (
@@ -157,12 +160,13 @@ def test_metadata_of_no_network_are_refused_at_once(network: Any, path: Path) ->
 )
 def test_metadata_of_no_metric_are_refused(metric: str, path: Path) -> None:
     save_file(load_file(path), path, {"hdpea_format": "1", "network": json.dumps(asdict(TINY)), "metric": metric})
-    with pytest.raises(UnreadableInput, match="metric|does not describe"):
+    with pytest.raises(UnreadableInput, match="does not describe"):
         read_weights(path)
 
 
 @pytest.mark.parametrize(
-    "header", [b"\xff\xfe", b"{", b'{"__metadata__": null}', b'{"__metadata__": []}', b"[" * 10_000]
+    "header",
+    [b"\xff\xfe", b"{", b'{"__metadata__": null}', b'{"__metadata__": []}', pytest.param(b"[" * 10_000, id="deep")],
 )
 def test_headers_of_no_weights_are_refused(header: bytes, path: Path) -> None:
     path.write_bytes(len(header).to_bytes(8, "little") + header)

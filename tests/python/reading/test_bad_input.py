@@ -33,7 +33,7 @@ BAD_CONTENT = {
     "cut.off": (b"OFF\n3 0 0\n0 0 0\n1 0 0\n", "ends after 2 of its 3"),
     "counts.off": (b"OFF\nmany\n", "no counts"),
     "short.obj": (b"v 1 2\n", "2 numbers|x, y and z"),
-    "cut.npy": (WITH_NORMALS["wide.npy"][:-8], "damaged"),
+    "cut.npy": (WITH_NORMALS["wide.npy"][:-8], "too short"),
     "cut.npz": (WITH_NORMALS["named.npz"][:-30], "damaged"),
     "names.npz": (saved(cloud=sphere_points(4)), "no array named points"),
     "shape.npz": (saved(points=sphere_points(1000).T), "not numbers of shape"),
