@@ -4,9 +4,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
-from hdpea.geometry.metric import BENDING_LENGTH, ScaledMetric
 from hdpea.options import Checked, option
+from hdpea.options.embedding import BENDING_LENGTH
+
+if TYPE_CHECKING:
+    from hdpea.geometry.metric import ScaledMetric
 
 
 @dataclass(frozen=True)
@@ -28,6 +32,8 @@ class GroundTruthOptions(Checked):
     @property
     def metric(self) -> ScaledMetric:
         """The metric, in spacings."""
+        from hdpea.geometry.metric import ScaledMetric
+
         return ScaledMetric(self.metric_scale, self.max_stretch, self.bending_length, self.curvature_radius)
 
 

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from torch import Tensor
 
 from hdpea import _core
-from hdpea.geometry.metric import CURVATURE_RADIUS
+from hdpea.options.embedding import CURVATURE_RADIUS
 
 
 @dataclass
