@@ -34,13 +34,13 @@ from val_table import POINTS, ROOT, read_mesh
 from hdpea import CurvatureOptions, CurvatureTensors, _core, estimate_curvature
 from hdpea.curvature.from_embedding import LEAST_RATIO
 from hdpea.curvature.options import EstimationOptions
-from hdpea.curvature.tensors import metric_tensors
 from hdpea.dataset.ground_truth import embed_mesh
 from hdpea.dataset.options import GroundTruthOptions
 from hdpea.embedding import EMBEDDERS
 from hdpea.errors import HdpeaError
 from hdpea.geometry.metric import Metric
 from hdpea.geometry.sampling import sample_surface
+from hdpea.geometry.tensors import metric_tensors
 from hdpea.geometry.triangles import mesh_area
 from hdpea.options import EmbeddingOptions, NormalOptions
 from hdpea.surface.surface import NEIGHBORS

@@ -17,10 +17,11 @@ from hdpea.curvature.options import (
     NORMAL_NEIGHBORS_PER_NOISE,
     CurvatureOptions,
 )
-from hdpea.curvature.tensors import CurvatureTensors, Estimate, metric_tensors
+from hdpea.curvature.tensors import CurvatureTensors, Estimate
 from hdpea.embedding import embed_surface
 from hdpea.errors import core_errors_translated
 from hdpea.geometry.metric import Metric
+from hdpea.geometry.tensors import metric_tensors
 from hdpea.geometry.thinning import thinned
 from hdpea.options import NormalOptions
 from hdpea.options.choice import Choice

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from hdpea import _core
 from hdpea.curvature.tensors import CurvatureTensors
 from hdpea.errors import core_errors_translated
+from hdpea.geometry.tensors import frames
 from hdpea.geometry.unit_frame import UnitFrame
 from hdpea.pictures.colors import Colors, ratio_colors
 
@@ -88,11 +89,10 @@ def glyphs_of(tensors: CurvatureTensors, count: int) -> Glyphs:
     length = np.sqrt(ratio).clip(max=LONGEST)
     direction1 = np.where(determined[:, None], tensors.direction1[chosen], _tangents(normals))
     half_axes = radius * np.column_stack([1 / length, length, np.full(len(chosen), THICKNESS)])
-    frames = np.stack([direction1, np.cross(normals, direction1), normals], axis=1)
     most = max(LEAST_RED, float(np.percentile(ratio[determined], REDDEST))) if determined.any() else LEAST_RED
     colored = ratio_colors(ratio, most)
     colors = np.where(determined[:, None], colored, np.rint(255 * np.array(UNDETERMINED))).astype(np.uint8)
-    return Glyphs(centres, normals, half_axes[:, :, None] * frames, colors, most, radius, frame)
+    return Glyphs(centres, normals, half_axes[:, :, None] * frames(normals, direction1), colors, most, radius, frame)
 
 
 def _tangents(normals: Rows) -> Rows:

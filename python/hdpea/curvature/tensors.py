@@ -88,10 +88,3 @@ class CurvatureTensors:
         """(n,) float64: s1 / s2, at least 1."""
         ratio: Rows = self.stretches[:, 0] / self.stretches[:, 1]
         return ratio
-
-
-def metric_tensors(normals: Rows, direction1: Rows, stretches: Rows) -> Rows:
-    """Return the tensors (n, 3, 3) of unit vectors (n, 3) and stretches (n, 2); the identity along the normals."""
-    frames = np.stack([direction1, np.cross(normals, direction1), normals], axis=1)
-    squares = np.column_stack([stretches**2, np.ones(len(stretches))])
-    return np.asarray(np.einsum("nd,ndi,ndj->nij", squares, frames, frames))

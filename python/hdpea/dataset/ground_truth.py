@@ -12,6 +12,7 @@ from hdpea import _core
 from hdpea.dataset.options import GroundTruthOptions
 from hdpea.errors import CannotReconstruct, core_errors_translated
 from hdpea.geometry.sampling import sample_surface
+from hdpea.geometry.tensors import principal, symmetric_tensors, tangent_directions
 from hdpea.geometry.triangles import area_vectors, mesh_area
 from hdpea.geometry.unit_frame import UnitFrame
 from hdpea.runtime.progress import ProgressCallback, of_phase, tell
@@ -69,22 +70,11 @@ class EmbeddedMesh:
             nearest = _core.closest_surface_points(self.vertices, self.faces, points_in_unit)
         corners, weights = self.faces[nearest.face], nearest.barycentric
         shape_operators = np.einsum("nc,ncij->nij", weights, self._shape_operators()[corners])
-        curvatures, direction1 = principal_curvatures(shape_operators)
+        curvatures, direction1 = principal(shape_operators)
         return PointTruth(np.einsum("nc,nci->ni", weights, self.psi[corners]), curvatures, direction1)
 
     def _shape_operators(self) -> NDArray[np.float64]:
-        directions = np.stack([self.direction1, np.cross(self.normals, self.direction1)], axis=1)
-        return np.asarray(np.einsum("nd,ndi,ndj->nij", self.curvatures, directions, directions))
-
-
-def principal_curvatures(
-    shape_operators: NDArray[np.float64],
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return k1, k2 (n, 2), |k1| >= |k2|, and the direction of k1 (n, 3) of symmetric tensors (n, 3, 3) of R^3."""
-    values, vectors = np.linalg.eigh(shape_operators)
-    order = np.argsort(-np.abs(values), axis=1, kind="stable")
-    direction1 = np.take_along_axis(vectors, order[:, None, :1], axis=2)[:, :, 0]
-    return np.take_along_axis(values, order[:, :2], axis=1), direction1
+        return symmetric_tensors(self.curvatures, tangent_directions(self.normals, self.direction1))
 
 
 def embed_mesh(

@@ -10,6 +10,7 @@ from hdpea import _core
 from hdpea.dataset.options import GroundTruthOptions
 from hdpea.dataset.sample import Sample
 from hdpea.errors import core_errors_translated
+from hdpea.geometry.tensors import symmetric_tensors, tangent_directions
 from hdpea.surface.surface import area_shown
 
 Rows = NDArray[np.float64]
@@ -89,5 +90,5 @@ def _offsets(rows: Rows, neighbors: NDArray[np.int64]) -> tuple[Rows, NDArray[np
 def _metric(sample: Sample, stretch: Rows) -> Rows:
     """Return M (n, 3, 3), the identity along the normals."""
     direction1 = sample.direction1.astype(np.float64)
-    directions = np.stack([direction1, np.cross(sample.normals.astype(np.float64), direction1)], axis=1)
-    return np.asarray(np.eye(3) + np.einsum("nd,ndi,ndj->nij", stretch**2 - 1, directions, directions))
+    directions = tangent_directions(sample.normals.astype(np.float64), direction1)
+    return np.asarray(np.eye(3) + symmetric_tensors(stretch**2 - 1, directions))

@@ -10,6 +10,7 @@ import numpy as np
 
 from hdpea import _core
 from hdpea.embedding.embedded import Embedded
+from hdpea.geometry.interpolation import Interpolation
 from hdpea.geometry.thinning import thinned
 from hdpea.options import EmbeddingOptions
 from hdpea.options.choice import Choice
@@ -35,7 +36,6 @@ def embed_learned(
         If `progress` cancels.
     """
     # torch takes more than a second to load, and no other embedding needs it.
-    from hdpea.network.averaging import carried_over
     from hdpea.network.inference import predict_psi
     from hdpea.network.weights import SHIPPED, read_weights
 
@@ -50,7 +50,7 @@ def embed_learned(
         neighbors = _core.sheet_neighbors(points, normals, _core.nearest_neighbors(points, NEIGHBORS))
     psi = predict_psi(network, points, normals, neighbors, spacing, options.whole_points, progress)
     if len(kept) < len(surface.points_in_unit):
-        psi = carried_over(points, normals, neighbors, psi, surface.points_in_unit, surface.normals)
+        psi = Interpolation.of(points, normals, surface.points_in_unit, surface.normals)(psi)
     choices = (
         Choice(
             "metric_spacing", spacing * surface.frame.diagonal, "world units", f"that of {round(shown):,} particles"

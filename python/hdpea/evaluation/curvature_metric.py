@@ -9,6 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hdpea import _core
+from hdpea.geometry.tensors import frames, symmetric_tensors
+from hdpea.geometry.triangles import area_vectors_of
 
 Rows = NDArray[np.float64]
 
@@ -75,20 +77,19 @@ def root_metrics(normals: Rows, principal: Rows, direction1: Rows) -> Rows:
 
     ``FLAT`` is in the units of the curvatures.
     """
-    directions = np.stack([direction1, np.cross(normals, direction1), normals], axis=1)
     k1, k2 = np.maximum(abs(principal), FLAT).T
     k2 = np.maximum(k2, k1 / MOST_STRETCHED**2)
     roots = np.sqrt(np.stack([k1, k2, k2], axis=1))
-    return np.asarray(np.einsum("nd,ndi,ndj->nij", roots, directions, directions))
+    return symmetric_tensors(roots, frames(normals, direction1))
 
 
 def triangle_qualities(corners: Rows) -> Rows:
-    """Return 2 sqrt(3) S / (p h) (f,) of triangles (f, 3, d): area, half perimeter, longest edge; 1 if equilateral.
+    """Return 2 sqrt(3) S / (p h) (f,) of triangles (f, 3, 3): area, half perimeter, longest edge; 1 if equilateral.
 
     From Frey and Borouchaki, Surface mesh quality evaluation, 1999; the G of the HD-PEA paper, section 4.1.
     """
     edges = np.roll(corners, -1, axis=1) - corners
     lengths = np.linalg.norm(edges, axis=2)
-    areas = np.linalg.norm(np.cross(edges[:, 0], edges[:, 1]), axis=1) / 2
+    areas = np.linalg.norm(area_vectors_of(corners), axis=1)
     sizes = lengths.sum(axis=1) / 2 * lengths.max(axis=1)
     return np.asarray(2 * np.sqrt(3) * areas / np.where(sizes > 0, sizes, 1))

@@ -5,16 +5,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-import numpy as np
 import torch
-from numpy.typing import NDArray
 from torch import Tensor
 
-from hdpea import _core
 from hdpea.network.layers import rows
-
-CARRY_FIT, CARRY_NEAREST = 16, 6
-"""To carry psi over: neighbours that its affine maps are fitted to, and nearest points whose maps are averaged."""
 
 RIDGE = 1e-3
 """Added to the squared tangent coordinates, in squared radii, lest neighbours on a line leave the map open."""
@@ -90,39 +84,6 @@ def averaged(values: Tensor, members: Tensor, averaging: Tensor) -> Tensor:
     """Return values (n, c) averaged over members (n, k) with weights (n, k)."""
     mean: Tensor = (averaging[:, None] @ rows(values, members))[:, 0]
     return mean
-
-
-def carried_over(
-    points: NDArray[np.float64],
-    normals: NDArray[np.float64],
-    neighbors: NDArray[np.int64],
-    psi: NDArray[np.float64],
-    other_points: NDArray[np.float64],
-    other_normals: NDArray[np.float64],
-) -> NDArray[np.float64]:
-    """Return psi (m, c) at other points of the same surface: that of the nearest, along their affine fits.
-
-    Parameters
-    ----------
-    points, normals, neighbors, psi
-        (n, 3), (n, 3), (n, k) with -1 pads, and (n, c).
-    other_points, other_normals
-        (m, 3).
-    """
-    on, normals_on, values = (torch.from_numpy(np.ascontiguousarray(each)) for each in (points, normals, psi))
-    gradient, _ = Neighborhoods.of(on, normals_on, torch.from_numpy(neighbors[:, :CARRY_FIT])).fit(values)  # (n, 2, c)
-    jacobian = gradient.mT @ tangents(normals_on)  # (n, c, 3)
-    nearest = torch.from_numpy(_core.nearest_neighbors(points, other_points, CARRY_NEAREST))  # (m, k)
-    way = torch.from_numpy(other_points)[:, None] - rows(on, nearest)  # (m, k, 3)
-    squared = way.square().sum(dim=2)
-    cosine = (rows(normals_on, nearest) * torch.from_numpy(other_normals)[:, None]).sum(dim=2)
-    weights = ((1 + cosine) / 2).clamp_min(1e-6).square() * (-2 * squared / squared.amax(dim=1, keepdim=True)).exp()
-    total = torch.zeros(len(other_points), psi.shape[1], dtype=values.dtype)
-    for each in range(CARRY_NEAREST):
-        member = nearest[:, each]
-        along = (rows(jacobian.flatten(1), member).view(-1, psi.shape[1], 3) @ way[:, each, :, None])[:, :, 0]
-        total += weights[:, each, None] * (rows(values, member) + along)
-    return (total / weights.sum(dim=1, keepdim=True)).numpy()
 
 
 def tangents(normals: Tensor) -> Tensor:
