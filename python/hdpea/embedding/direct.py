@@ -10,9 +10,10 @@ import numpy as np
 from hdpea import _core
 from hdpea.embedding.embedded import Embedded
 from hdpea.errors import UsageError
-from hdpea.geometry.metric import BENDING_LENGTH, CURVATURE_RADIUS, ScaledMetric
+from hdpea.geometry.metric import ScaledMetric
 from hdpea.options import EmbeddingOptions
 from hdpea.options.choice import Choice
+from hdpea.options.embedding import BENDING_LENGTH, CURVATURE_RADIUS
 from hdpea.options.lengths import Length
 from hdpea.surface.surface import Surface
 from hdpea.surface.triangle_soup import triangle_soup

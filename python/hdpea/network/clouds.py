@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 from torch import Tensor
 
 from hdpea import _core
-from hdpea.geometry.metric import CURVATURE_RADIUS
 from hdpea.geometry.tensors import symmetric_tensors, tangent_directions
+from hdpea.options.embedding import CURVATURE_RADIUS
 
 FAR = 8192.0
 """Distance from the centre, in spacings, beyond which gaps are narrowed: float32 and voxels reach little farther."""
