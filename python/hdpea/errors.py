@@ -55,6 +55,20 @@ class Interrupted(HdpeaError):
         super().__init__("Interrupted; nothing half-written is left.")
 
 
+class Terminated(HdpeaError):
+    """The system, or another program, asked the process to end (SIGTERM, or SIGHUP when its terminal is closed)."""
+
+    exit_code = 143
+
+    def __init__(self) -> None:
+        super().__init__("Terminated; nothing half-written is left.")
+
+
+_CORE_HINTS = {
+    UsageError: "Check the shapes and the values of what was given.",
+    CannotReconstruct: "`hdpea info` shows what the points are like; other points, or other options, may do.",
+}
+
 @contextmanager
 def core_errors_translated() -> Iterator[None]:
     """Turn what the compiled core throws into the errors of this module.
@@ -70,9 +84,15 @@ def core_errors_translated() -> Iterator[None]:
         from hdpea import _core
 
         if isinstance(error, _core.InvalidArgument):
-            raise UsageError(str(error)) from error
+            raise UsageError(_sentence(error), _CORE_HINTS[UsageError]) from error
         if isinstance(error, _core.CannotReconstruct):
-            raise CannotReconstruct(str(error)) from error
+            raise CannotReconstruct(_sentence(error), _CORE_HINTS[CannotReconstruct]) from error
         if isinstance(error, _core.Cancelled):
             raise Interrupted from error
         raise
+
+
+def _sentence(error: Exception) -> str:
+    """Return what the core says, which is a clause, as a sentence; names such as fill_holes stay as they are."""
+    clause = str(error).removesuffix(".")
+    return f"{clause[:1].upper() if clause.split(' ')[0].isalpha() else clause[:1]}{clause[1:]}."

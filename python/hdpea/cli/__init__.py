@@ -11,6 +11,7 @@ from collections.abc import Sequence
 import click
 
 from hdpea.cli.lazy import lazy_group
+from hdpea.cli.streams import sound_streams
 from hdpea.errors import HdpeaError, Interrupted, UsageError, core_errors_translated
 from hdpea.runtime.interrupts import prompt_interrupts
 
@@ -50,7 +51,9 @@ def hdpea(debug: bool) -> None:
 
 def main(arguments: Sequence[str] | None = None) -> None:
     """Run the command and exit with the code of what happened; the entry point of ``hdpea``."""
-    sys.exit(run(arguments))
+    with sound_streams():
+        exit_code = run(arguments)
+    sys.exit(exit_code)
 
 
 def run(arguments: Sequence[str] | None = None) -> int:

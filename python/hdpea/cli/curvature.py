@@ -11,6 +11,7 @@ import click
 from hdpea.cli.parameters import GroupedCommand, GroupedOption, quiet_option, setting_options
 from hdpea.curvature.options import CurvatureOptions
 from hdpea.options.settings import filled
+from hdpea.runtime.outputs import check_distinct, check_output
 
 EPILOG = """\b
 Examples:
@@ -53,7 +54,8 @@ def command(*, source: str, output: Path, picture: Path | None, page: Path | Non
     Lengths are in the units of the file, or in percent of the diagonal of the cloud's bounding box.
     """
     options = filled(CurvatureOptions, values)
-    _check_outputs(source, output, picture, page)
+    _check_outputs(output, picture, page)
+    check_distinct([source, options.embedding.weights], [output, picture, page])
     from hdpea.curvature.estimation import estimate_curvature
     from hdpea.curvature.writing import write_curvature
     from hdpea.reading import read_points
@@ -81,12 +83,10 @@ def command(*, source: str, output: Path, picture: Path | None, page: Path | Non
         click.echo("\n".join([*cloud.notes, *summarize(tensors)]), err=True)
 
 
-def _check_outputs(source: str, output: Path, picture: Path | None, page: Path | None) -> None:
+def _check_outputs(output: Path, picture: Path | None, page: Path | None) -> None:
     from hdpea.curvature.writing import check_curvature_output
-    from hdpea.runtime.outputs import check_not_input, check_output
 
     check_curvature_output(output)
-    check_not_input(output, source)
     if picture:
         from hdpea.pictures.picture import PICTURE_FORMATS, check_drawing
 

@@ -105,7 +105,7 @@ def read_manifest(path: Path) -> Manifest:
         read = _READERS.get(schema)
         if read is not None:
             return read(content)
-    except (ValueError, TypeError, LookupError, AttributeError) as error:
+    except (ValueError, TypeError, LookupError, AttributeError, RecursionError) as error:
         what = f"it is not the manifest of a dataset ({type(error).__name__}: {error})"
         raise UnreadableInput(f"Cannot read {file}: {what}.", "Build the dataset anew.") from error
     raise UnreadableInput(

@@ -10,19 +10,31 @@ from contextlib import AbstractContextManager, contextmanager, nullcontext
 
 from hdpea.errors import Interrupted
 
-ProgressCallback = Callable[[str, float], bool]
-"""Takes the name of a phase and the fraction of it done, in [0, 1]; False asks to stop."""
+ProgressCallback = Callable[[str, float], object]
+"""What users give: a function of the name of a phase and the fraction of it done, in [0, 1].
+
+It asks to stop by returning False, or whatever else is false (0, ``numpy.False_``); None, which a function without a
+return statement returns, goes on. See ``goes_on``.
+"""
+
+PhaseCallback = Callable[[float], bool]
+"""The same for one phase, of which it knows the name: what stages and the core are given, see ``of_phase``."""
+
+
+def goes_on(answer: object) -> bool:
+    """Say whether the run goes on after a callback has returned `answer`; bindings/bindings.hpp has the same rule."""
+    return answer is None or bool(answer)
 
 
 def tell(progress: ProgressCallback | None, phase: str, fraction: float) -> None:
     """Report progress from a Python stage; raise ``Interrupted`` if the callback asks to stop."""
-    if progress is not None and not progress(phase, fraction):
+    if not of_phase(progress, phase)(fraction):
         raise Interrupted
 
 
-def of_phase(progress: ProgressCallback | None, phase: str) -> Callable[[float], bool]:
-    """Return the callback for one phase in the form that the core takes."""
-    return lambda fraction: progress is None or progress(phase, fraction)
+def of_phase(progress: ProgressCallback | None, phase: str) -> PhaseCallback:
+    """Return the callback for one phase."""
+    return lambda fraction: progress is None or goes_on(progress(phase, fraction))
 
 
 def shown(quiet: bool = False) -> AbstractContextManager[ProgressCallback | None]:

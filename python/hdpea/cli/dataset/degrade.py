@@ -33,11 +33,11 @@ def command(source: Path, output: Path, **values: Any) -> None:
     from hdpea.dataset.normal_estimation import estimated_normals
     from hdpea.dataset.sample_file import SAMPLE_FORMATS, read_sample, write_sample
     from hdpea.options.settings import filled
-    from hdpea.runtime.outputs import check_not_input, check_output
+    from hdpea.runtime.outputs import check_distinct, check_output
 
     options = filled(DegradationOptions, values)
     check_output(output, SAMPLE_FORMATS)
-    check_not_input(output, str(source))
+    check_distinct([source], [output])
     sample = read_sample(source)
     worse = degraded(sample, options)
     if sample.estimated_normals is not None:

@@ -37,13 +37,13 @@ def command(mesh: Path, output: Path, quiet: bool, **values: Any) -> None:
     """
     from hdpea.dataset.surface_file import read_surface
     from hdpea.options.settings import filled
-    from hdpea.runtime.outputs import check_not_input, check_output
+    from hdpea.runtime.outputs import check_distinct, check_output
     from hdpea.runtime.progress import shown, tell
     from hdpea.writing.meshes import POINT_FORMATS
 
     options = filled(DatasetOptions, values)
     check_output(output, POINT_FORMATS)
-    check_not_input(output, str(mesh))
+    check_distinct([mesh], [output])
     with shown(quiet) as progress:
         tell(progress, "reading", 0.0)
         vertices, faces = read_surface(mesh)

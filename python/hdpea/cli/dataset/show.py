@@ -28,8 +28,9 @@ def command(source: Path, output: Path) -> None:
     from hdpea.dataset.sample_file import read_sample
     from hdpea.dataset.sample_picture import draw_sample
     from hdpea.pictures.picture import PICTURE_FORMATS, check_drawing
-    from hdpea.runtime.outputs import check_output
+    from hdpea.runtime.outputs import check_distinct, check_output
 
     check_output(output, PICTURE_FORMATS)
+    check_distinct([source], [output])
     check_drawing()
     draw_sample(output, read_sample(source))
