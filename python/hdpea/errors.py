@@ -11,15 +11,18 @@ from typing import ClassVar
 class HdpeaError(Exception):
     """An error to be told to the user: one clear sentence, and a hint what to do about it.
 
+    Options are named in backquotes, as in Python: `orient='auto'`; the command line turns that into its flags.
+
     Raised itself (exit code 1) where nothing but hdpea or the machine is to blame.
     """
 
     exit_code: ClassVar[int] = 1
+    usual_hint: ClassVar[str] = ""
 
     def __init__(self, message: str, hint: str = "") -> None:
         super().__init__(message)
         self.message = message
-        self.hint = hint
+        self.hint = hint or self.usual_hint
 
 
 class UsageError(HdpeaError):
@@ -32,12 +35,14 @@ class UnreadableInput(HdpeaError):
     """The input is missing, damaged, of an unknown format or holds no points."""
 
     exit_code = 3
+    usual_hint = "Check that it is the right file, and whole."
 
 
 class CannotReconstruct(HdpeaError):
     """The points were read, but no surface can be made of them."""
 
     exit_code = 4
+    usual_hint = "`hdpea info` shows what the points are like."
 
 
 class QualityMissed(HdpeaError):
@@ -64,11 +69,6 @@ class Terminated(HdpeaError):
         super().__init__("Terminated; nothing half-written is left.")
 
 
-_CORE_HINTS = {
-    UsageError: "Check the shapes and the values of what was given.",
-    CannotReconstruct: "`hdpea info` shows what the points are like; other points, or other options, may do.",
-}
-
 @contextmanager
 def core_errors_translated() -> Iterator[None]:
     """Turn what the compiled core throws into the errors of this module.
@@ -84,9 +84,9 @@ def core_errors_translated() -> Iterator[None]:
         from hdpea import _core
 
         if isinstance(error, _core.InvalidArgument):
-            raise UsageError(_sentence(error), _CORE_HINTS[UsageError]) from error
+            raise UsageError(_sentence(error), "Check the shapes and the values of what was given.") from error
         if isinstance(error, _core.CannotReconstruct):
-            raise CannotReconstruct(_sentence(error), _CORE_HINTS[CannotReconstruct]) from error
+            raise CannotReconstruct(_sentence(error)) from error
         if isinstance(error, _core.Cancelled):
             raise Interrupted from error
         raise

@@ -23,7 +23,7 @@ class SuiteOptions(Checked):
     """What a suite says about all its runs."""
 
     title: str = option("", "what it is, in a line")
-    meshes: str = option("", "folder of the models, from where the suite lies; --meshes wins over it")
+    meshes: str = option("", "folder of the models, from where the suite lies; those that a run is given win over it")
     truth: str = option(
         MESH,
         "mesh: models are true surfaces; held_out: they are clouds, half of which no method is given and is the truth",

@@ -43,7 +43,8 @@ def _standing_in(number: int, stream: TextIO | None, failed: Callable[[OSError],
     """Return a stream to the same place as `stream`, None if it was closed."""
     encoding, errors = (stream.encoding, stream.errors) if stream else ("utf-8", "backslashreplace")
     raw = _Raw(number, failed)
-    return io.TextIOWrapper(io.BufferedWriter(raw), encoding, errors, line_buffering=number == 2 or raw.isatty())
+    buffered = io.BufferedWriter(raw)  # type: ignore[type-var]
+    return io.TextIOWrapper(buffered, encoding, errors, line_buffering=number == 2 or raw.isatty())
 
 
 class _Raw(io.RawIOBase):

@@ -3,8 +3,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 import numpy as np
 
 from hdpea import _core
@@ -13,13 +11,12 @@ from hdpea.geometry.metric import BENDING_LENGTH, CURVATURE_RADIUS, ScaledMetric
 from hdpea.options import EmbeddingOptions
 from hdpea.options.choice import Choice
 from hdpea.options.lengths import Length
+from hdpea.runtime.progress import PhaseCallback
 from hdpea.surface.surface import Surface
 from hdpea.surface.triangle_soup import triangle_soup
 
 
-def embed_directly(
-    surface: Surface, vertices: int, options: EmbeddingOptions, progress: Callable[[float], bool]
-) -> Embedded:
+def embed_directly(surface: Surface, vertices: int, options: EmbeddingOptions, progress: PhaseCallback) -> Embedded:
     """Return the embedding [p, psi] of a surface, at the scale of a mesh of so many `vertices`.
 
     Curvature is fitted to the normals, a soup of tangential Delaunay triangles stands in for a mesh, and

@@ -6,7 +6,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from hdpea.errors import UsageError
-from hdpea.options.checked import Checked, option
+from hdpea.options.checked import LARGEST_COUNT, Checked, option
 from hdpea.options.lengths import Length
 
 POINTS_PER_VERTEX = 8
@@ -20,7 +20,7 @@ class MeshingOptions(Checked):
     vertices: int | None = option(
         None, f"vertices wanted; default: one for every {POINTS_PER_VERTEX} points", minimum=4
     )
-    faces: int | None = option(None, "faces wanted, instead of --vertices", minimum=4)
+    faces: int | None = option(None, "faces wanted, instead of `vertices`", minimum=4)
     fill_holes: Length | None = option(
         None, "fill holes up to this size across, as 0.02 or 1%; default: 4 times the spacing of the particles; 0: none"
     )
@@ -30,6 +30,7 @@ class MeshingOptions(Checked):
         "drop connected pieces of fewer faces than this, or of as small a share of the mesh that is to be simplified; "
         "the largest stays",
         minimum=0,
+        maximum=LARGEST_COUNT,
     )
 
     def __post_init__(self) -> None:

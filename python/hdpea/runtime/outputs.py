@@ -150,6 +150,6 @@ def _status(path: Path) -> os.stat_result | None:
 def _identity(path: Path | str) -> object:
     """Return what two names have in common if and only if they are of one file."""
     with suppress(OSError, ValueError):
-        found = os.fstat(0) if str(path) == STANDARD_INPUT else os.stat(path)
+        found = os.fstat(0) if str(path) == STANDARD_INPUT else Path(path).stat()
         return found.st_dev, found.st_ino
     return _target(Path(path))

@@ -52,12 +52,15 @@ def command(ctx: click.Context, /, *, meshes: str, output: Path, like: Path | No
     (sqrt(area / vertices)) where it says so.
     """
     from hdpea.dataset.build import build_dataset
-    from hdpea.dataset.manifest import read_manifest
+    from hdpea.dataset.card import CARD_NAME
+    from hdpea.dataset.manifest import MANIFEST_NAME, manifest_file, read_manifest
     from hdpea.dataset.manifest_options import options_from_manifest
     from hdpea.dataset.verification import require_same_bytes
     from hdpea.options.settings import RUN, filled, settings
+    from hdpea.runtime.outputs import check_distinct
 
     wanted = None if like is None else read_manifest(like)
+    check_distinct([like and manifest_file(like)], [output / MANIFEST_NAME, output / CARD_NAME])
     if wanted is None:
         options = filled(DatasetOptions, values)
     else:
