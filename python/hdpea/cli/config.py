@@ -9,7 +9,7 @@ from typing import Any
 
 import click
 
-from hdpea.cli.parameters import GroupedOption
+from hdpea.cli.parameters import PATH, GroupedOption
 from hdpea.errors import UsageError
 from hdpea.options.settings import settings
 
@@ -69,7 +69,7 @@ def config_of(ctx: click.Context) -> Path | None:
 config_option = click.option(
     "--config",
     cls=GroupedOption,
-    type=click.Path(path_type=Path),
+    type=PATH,
     is_eager=True,
     expose_value=False,
     callback=_use_config,

@@ -8,7 +8,7 @@ from typing import Any
 
 import click
 
-from hdpea.cli.parameters import GroupedCommand, GroupedOption, quiet_option, setting_options
+from hdpea.cli.parameters import PATH, GroupedCommand, GroupedOption, quiet_option, setting_options
 from hdpea.curvature.options import CurvatureOptions
 from hdpea.options.settings import filled
 from hdpea.runtime.outputs import check_distinct, check_output
@@ -27,14 +27,12 @@ Exit codes: 0 ok, 1 internal error, 2 usage, 3 unreadable input,
 
 @click.command(cls=GroupedCommand, epilog=EPILOG, no_args_is_help=True, short_help="Estimate curvature tensors.")
 @click.argument("source", metavar="IN")
-@click.argument("output", metavar="OUT", type=click.Path(path_type=Path))
-@click.option(
-    "--picture", cls=GroupedOption, type=click.Path(path_type=Path), help="draw the tensors, as PNG; needs no screen"
-)
+@click.argument("output", metavar="OUT", type=PATH)
+@click.option("--picture", cls=GroupedOption, type=PATH, help="draw the tensors, as PNG; needs no screen")
 @click.option(
     "--page",
     cls=GroupedOption,
-    type=click.Path(path_type=Path),
+    type=PATH,
     help="draw them as an HTML file to turn and zoom, in any browser, offline",
 )
 @quiet_option

@@ -9,7 +9,7 @@ from typing import Any
 import click
 
 from hdpea.cli.config import config_of, config_option
-from hdpea.cli.parameters import GroupedCommand, chosen_options, quiet_option, setting_options
+from hdpea.cli.parameters import PATH, GroupedCommand, chosen_options, quiet_option, setting_options
 
 EPILOG = """\b
 Examples:
@@ -20,7 +20,7 @@ Examples:
 
 @click.command(cls=GroupedCommand, epilog=EPILOG, no_args_is_help=True, short_help="Embed a point cloud into R^8.")
 @click.argument("source", metavar="IN")
-@click.argument("output", metavar="OUT", type=click.Path(path_type=Path))
+@click.argument("output", metavar="OUT", type=PATH)
 @config_option
 @quiet_option
 @setting_options("normals", "embedding", "run", also=["vertices", "particles"])

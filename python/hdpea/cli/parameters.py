@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Collection, Mapping
+from pathlib import Path
 from typing import Any, TypeVar
 
 import click
@@ -46,6 +47,25 @@ class ShareType(click.ParamType[float]):
             return float(text.removesuffix("%")) / 100 if text.endswith("%") else float(text)
         except ValueError:
             self.fail(f"{text!r} is not a number such as 0.003 or 0.3%.", param, ctx)
+
+
+class PathType(click.Path):
+    """The name of a file or folder, be there one or not; what no file can be called is a usage error."""
+
+    def __init__(self) -> None:
+        super().__init__(path_type=Path)
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
+        """Return the path."""
+        path = super().convert(value, param, ctx)
+        try:
+            Path(value).exists()
+        except OSError as error:
+            self.fail(f"{value}: {error.strerror}.", param, ctx)
+        return path
+
+
+PATH = PathType()
 
 
 class GroupedOption(click.Option):

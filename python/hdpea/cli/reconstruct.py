@@ -10,7 +10,7 @@ from typing import Any
 import click
 
 from hdpea.cli.config import config_of, config_option
-from hdpea.cli.parameters import GroupedCommand, GroupedOption, chosen_options, quiet_option, setting_options
+from hdpea.cli.parameters import PATH, GroupedCommand, GroupedOption, chosen_options, quiet_option, setting_options
 from hdpea.errors import QualityMissed
 from hdpea.runtime.outputs import check_distinct, check_output
 
@@ -29,13 +29,9 @@ Exit codes: 0 ok, 1 internal error, 2 usage, 3 unreadable input,
 
 @click.command(cls=GroupedCommand, epilog=EPILOG, no_args_is_help=True, short_help="Make a mesh of a point cloud.")
 @click.argument("source", metavar="IN")
-@click.argument("output", metavar="OUT", type=click.Path(path_type=Path))
-@click.option(
-    "--report", cls=GroupedOption, type=click.Path(path_type=Path), help="write what was chosen and measured, as JSON"
-)
-@click.option(
-    "--picture", cls=GroupedOption, type=click.Path(path_type=Path), help="draw the mesh, as PNG; needs no screen"
-)
+@click.argument("output", metavar="OUT", type=PATH)
+@click.option("--report", cls=GroupedOption, type=PATH, help="write what was chosen and measured, as JSON")
+@click.option("--picture", cls=GroupedOption, type=PATH, help="draw the mesh, as PNG; needs no screen")
 @config_option
 @quiet_option
 @setting_options("meshing", "normals", "denoising", "embedding", "particles", "refinement", "run")

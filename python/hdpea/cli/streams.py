@@ -40,11 +40,11 @@ def _refuse(error: OSError) -> None:
 
 
 def _standing_in(number: int, stream: TextIO | None, failed: Callable[[OSError], None]) -> TextIO:
-    """Return a stream to the same place as `stream`, None if it was closed."""
-    encoding, errors = (stream.encoding, stream.errors) if stream else ("utf-8", "backslashreplace")
+    """Return a stream to the same place as `stream`, None if it was closed; names of files need not be text."""
+    encoding = stream.encoding if stream else "utf-8"
     raw = _Raw(number, failed)
     buffered = io.BufferedWriter(raw)  # type: ignore[type-var]
-    return io.TextIOWrapper(buffered, encoding, errors, line_buffering=number == 2 or raw.isatty())
+    return io.TextIOWrapper(buffered, encoding, "backslashreplace", line_buffering=number == 2 or raw.isatty())
 
 
 class _Raw(io.RawIOBase):

@@ -15,6 +15,9 @@ from hdpea.runtime.progress import PhaseCallback
 from hdpea.surface.surface import Surface
 from hdpea.surface.triangle_soup import triangle_soup
 
+LONGEST_BENDING = 1e3
+"""In diagonals of the cloud: beyond it psi does not bend at all, and its system is too stiff for double precision."""
+
 
 def embed_directly(surface: Surface, vertices: int, options: EmbeddingOptions, progress: PhaseCallback) -> Embedded:
     """Return the embedding [p, psi] of a surface, at the scale of a mesh of so many `vertices`.
@@ -35,7 +38,7 @@ def embed_directly(surface: Surface, vertices: int, options: EmbeddingOptions, p
         choices.append(Choice(name, chosen * surface.frame.diagonal, "world units", why))
         return chosen
 
-    bending_length = choose("bending_length", options.bending_length, BENDING_LENGTH)
+    bending_length = min(choose("bending_length", options.bending_length, BENDING_LENGTH), LONGEST_BENDING)
     curvature_radius = choose("curvature_radius", options.curvature_radius, CURVATURE_RADIUS)
     metric = ScaledMetric(options.metric_scale, options.max_stretch, bending_length, curvature_radius)
     curvature = _core.estimate_curvature(points, normals, surface.neighbors, metric.curvature_radius)

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import click
 from click.core import ParameterSource
 
-from hdpea.cli.parameters import GroupedCommand, GroupedOption, quiet_option, setting_options
+from hdpea.cli.parameters import PATH, GroupedCommand, GroupedOption, quiet_option, setting_options
 from hdpea.dataset.options import DatasetOptions
 from hdpea.errors import UsageError
 
@@ -30,11 +30,11 @@ Exit codes: 0 ok, 2 usage, 3 no meshes, 5 none usable or other bytes than --like
 
 @click.command(cls=GroupedCommand, epilog=EPILOG, no_args_is_help=True, short_help="Make a sample of every mesh.")
 @click.argument("meshes")
-@click.argument("output", metavar="OUT", type=click.Path(path_type=Path))
+@click.argument("output", metavar="OUT", type=PATH)
 @click.option(
     "--like",
     cls=GroupedOption,
-    type=click.Path(path_type=Path),
+    type=PATH,
     help="take every option from this manifest, and make sure that the same bytes come out",
 )
 @quiet_option

@@ -9,7 +9,7 @@ from typing import Any
 
 import click
 
-from hdpea.cli.parameters import GroupedCommand, setting_options
+from hdpea.cli.parameters import PATH, GroupedCommand, setting_options
 from hdpea.dataset.options import DegradationOptions
 
 EPILOG = """\b
@@ -20,8 +20,8 @@ Examples:
 
 
 @click.command(cls=GroupedCommand, epilog=EPILOG, no_args_is_help=True, short_help="Make a sample worse.")
-@click.argument("source", metavar="IN", type=click.Path(path_type=Path))
-@click.argument("output", metavar="OUT", type=click.Path(path_type=Path))
+@click.argument("source", metavar="IN", type=PATH)
+@click.argument("output", metavar="OUT", type=PATH)
 @setting_options("run", owner=DegradationOptions, heading="Degradation")
 def command(source: Path, output: Path, **values: Any) -> None:
     """Make the sample IN worse, as scans are, and write it as OUT; both are NPZ.

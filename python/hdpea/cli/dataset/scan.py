@@ -9,7 +9,7 @@ from typing import Any
 
 import click
 
-from hdpea.cli.parameters import GroupedCommand, quiet_option, setting_options
+from hdpea.cli.parameters import PATH, GroupedCommand, quiet_option, setting_options
 from hdpea.dataset.options import DatasetOptions
 
 EPILOG = """\b
@@ -21,8 +21,8 @@ Examples:
 
 
 @click.command(cls=GroupedCommand, epilog=EPILOG, no_args_is_help=True, short_help="Scan a mesh as a sensor would.")
-@click.argument("mesh", type=click.Path(path_type=Path))
-@click.argument("output", metavar="OUT", type=click.Path(path_type=Path))
+@click.argument("mesh", type=PATH)
+@click.argument("output", metavar="OUT", type=PATH)
 @quiet_option
 @setting_options("scanning", "ground_truth", also=["points", "seed", "estimate"], owner=DatasetOptions)
 def command(mesh: Path, output: Path, quiet: bool, **values: Any) -> None:

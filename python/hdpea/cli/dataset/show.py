@@ -7,7 +7,7 @@ from pathlib import Path
 
 import click
 
-from hdpea.cli.parameters import GroupedCommand
+from hdpea.cli.parameters import PATH, GroupedCommand
 
 EPILOG = """\b
 Examples:
@@ -16,8 +16,8 @@ Examples:
 
 
 @click.command(cls=GroupedCommand, epilog=EPILOG, no_args_is_help=True, short_help="Draw a sample.")
-@click.argument("source", metavar="IN", type=click.Path(path_type=Path))
-@click.argument("output", metavar="OUT", type=click.Path(path_type=Path))
+@click.argument("source", metavar="IN", type=PATH)
+@click.argument("output", metavar="OUT", type=PATH)
 def command(source: Path, output: Path) -> None:
     """Draw the sample IN as the PNG file OUT, thrice; needs no screen.
 
