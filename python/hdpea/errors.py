@@ -11,15 +11,18 @@ from typing import ClassVar
 class HdpeaError(Exception):
     """An error to be told to the user: one clear sentence, and a hint what to do about it.
 
+    Options are named in backquotes, as in Python: `orient='auto'`; the command line turns that into its flags.
+
     Raised itself (exit code 1) where nothing but hdpea or the machine is to blame.
     """
 
     exit_code: ClassVar[int] = 1
+    usual_hint: ClassVar[str] = ""
 
     def __init__(self, message: str, hint: str = "") -> None:
         super().__init__(message)
         self.message = message
-        self.hint = hint
+        self.hint = hint or self.usual_hint
 
 
 class UsageError(HdpeaError):
@@ -32,12 +35,14 @@ class UnreadableInput(HdpeaError):
     """The input is missing, damaged, of an unknown format or holds no points."""
 
     exit_code = 3
+    usual_hint = "Check that it is the right file, and whole."
 
 
 class CannotReconstruct(HdpeaError):
     """The points were read, but no surface can be made of them."""
 
     exit_code = 4
+    usual_hint = "`hdpea info` shows what the points are like."
 
 
 class QualityMissed(HdpeaError):
@@ -53,6 +58,15 @@ class Interrupted(HdpeaError):
 
     def __init__(self) -> None:
         super().__init__("Interrupted; nothing half-written is left.")
+
+
+class Terminated(HdpeaError):
+    """The system, or another program, asked the process to end (SIGTERM, or SIGHUP when its terminal is closed)."""
+
+    exit_code = 143
+
+    def __init__(self) -> None:
+        super().__init__("Terminated; nothing half-written is left.")
 
 
 @contextmanager
@@ -82,6 +96,6 @@ def core_errors_translated() -> Iterator[None]:
 
 
 def _sentence(error: Exception) -> str:
-    """Return the message of the core, which knows no users, as a sentence."""
-    message = str(error)
-    return f"{message[:1].upper()}{message[1:]}."
+    """Return what the core says, which is a clause, as a sentence; names such as fill_holes stay as they are."""
+    clause = str(error).removesuffix(".")
+    return f"{clause[:1].upper() if clause.split(' ')[0].isalpha() else clause[:1]}{clause[1:]}."

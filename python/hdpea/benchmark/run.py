@@ -23,6 +23,7 @@ from hdpea.dataset.discovery import find_clouds, find_meshes
 from hdpea.dataset.raycasting import require_embree
 from hdpea.dataset.sources import Source
 from hdpea.errors import HdpeaError, UsageError, core_errors_translated
+from hdpea.runtime.outputs import check_outside
 from hdpea.version import version
 from hdpea.writing.meshes import write_mesh
 
@@ -70,11 +71,14 @@ def run_suite(
     UnreadableInput
         If there are no models.
     UsageError
-        If the folder cannot be written, or scans are requested and embreex is not installed.
+        If the folder cannot be written, or a model lies where results go; if scans are requested and embreex is not
+        installed.
     """
     if any(given.sample.kind == "scan" for given in suite.inputs):
         require_embree()  # reported once, not for every model
     sources = sources_of(suite, meshes)
+    for name in (RUNS, MESHES, CLOUDS, SURFACES):
+        check_outside(folder / name, [each.path for each in sources])
     try:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:

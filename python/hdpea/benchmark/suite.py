@@ -23,7 +23,7 @@ class SuiteOptions(Checked):
     """The options common to all runs of a suite."""
 
     title: str = option("", "title, in a line")
-    meshes: str = option("", "folder of the models, relative to the suite; --meshes takes precedence")
+    meshes: str = option("", "folder of the models, relative to the suite; those that a run is given take precedence")
     truth: str = option(
         MESH,
         "mesh: models are true surfaces; held_out: they are clouds, half of whose points are held out as the truth",

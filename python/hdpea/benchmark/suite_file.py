@@ -60,8 +60,9 @@ def read_suite(name: str, only: Sequence[str] = (), models: int | None = None) -
 def _suite(name: str, text: str, folder: Path, only: Sequence[str], models: int | None) -> Suite:
     try:
         content = tomllib.loads(text)
-    except ValueError as error:
-        raise UsageError(f"The suite {name} is not TOML: {error}.", "Lines look like: points = 40_000") from error
+    except (ValueError, RecursionError) as error:
+        what = "its values are nested too deep" if isinstance(error, RecursionError) else error
+        raise UsageError(f"The suite {name} is not TOML: {what}.", "Lines look like: points = 40_000") from error
     tables = {key: content.pop(key, []) for key in ("input", "method", "quoted")}
     if not (tables["input"] and tables["method"]):
         raise UsageError(f"The suite {name} has no [[input]] or no [[method]].", "It needs at least one of each.")

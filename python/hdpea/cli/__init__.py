@@ -11,6 +11,7 @@ from collections.abc import Sequence
 import click
 
 from hdpea.cli.lazy import lazy_group
+from hdpea.cli.streams import sound_streams
 from hdpea.errors import HdpeaError, Interrupted, UsageError, core_errors_translated
 from hdpea.runtime.interrupts import prompt_interrupts
 
@@ -50,7 +51,9 @@ def hdpea(debug: bool) -> None:
 
 def main(arguments: Sequence[str] | None = None) -> None:
     """Run the command and exit with the code of what happened; the entry point of ``hdpea``."""
-    sys.exit(run(arguments))
+    with sound_streams():
+        exit_code = run(arguments)
+    sys.exit(exit_code)
 
 
 def run(arguments: Sequence[str] | None = None) -> int:
@@ -61,17 +64,27 @@ def run(arguments: Sequence[str] | None = None) -> int:
     except click.exceptions.NoArgsIsHelpError as error:
         click.echo(error.format_message(), err=True)
         return UsageError.exit_code
-    except click.ClickException as error:
-        path = error.ctx.command_path if isinstance(error, click.UsageError) and error.ctx else "hdpea"
-        return _tell(UsageError(error.format_message(), f"`{path} --help` explains the options."), error)
-    except (KeyboardInterrupt, click.Abort) as error:
-        return _tell(Interrupted(), error)
-    except HdpeaError as error:
-        return _tell(error, error)
-    except Exception as error:  # noqa: BLE001 whatever it is, the user gets a sentence and a code
-        sentence = f"Internal error: {type(error).__name__}: {error}"
-        return _tell(HdpeaError(sentence, f"Please report it, with what {TRACEBACK}=1 shows."), error)
+    except (Exception, KeyboardInterrupt) as error:  # noqa: BLE001 whatever it is, the user gets a sentence and a code
+        return _tell(_meant(error), error)
     return 0
+
+
+def _meant(error: BaseException) -> HdpeaError:
+    """Return what to tell of an error."""
+    match error:
+        case HdpeaError():
+            return error
+        case click.ClickException():
+            path = error.ctx.command_path if isinstance(error, click.UsageError) and error.ctx else "hdpea"
+            return UsageError(error.format_message(), f"`{path} --help` explains the options.")
+        case KeyboardInterrupt() | click.Abort():
+            return Interrupted()
+        case OSError():
+            what = f"Cannot use {error.filename}" if error.filename else "The system refused"
+            return HdpeaError(f"{what}: {error.strerror or error}.", "Check the names, the folders and the disk.")
+        case _:
+            sentence = f"Internal error: {type(error).__name__}: {error}"
+            return HdpeaError(sentence, f"Please report it, with what {TRACEBACK}=1 shows.")
 
 
 def _tell(told: HdpeaError, cause: BaseException) -> int:

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import click
 
-from hdpea.cli.parameters import GroupedCommand, GroupedOption, quiet_option
+from hdpea.cli.parameters import PATH, GroupedCommand, GroupedOption, quiet_option
 from hdpea.errors import QualityMissed, UsageError
 
 EPILOG = """\b
@@ -25,7 +25,7 @@ Exit codes: 0 ok, 2 usage or a library is missing, 3 no such suite or meshes,
 
 @click.command(cls=GroupedCommand, epilog=EPILOG, no_args_is_help=True, short_help="Compare methods on many models.")
 @click.argument("suite")
-@click.argument("output", metavar="OUT", type=click.Path(path_type=Path))
+@click.argument("output", metavar="OUT", type=PATH)
 @click.option("--meshes", cls=GroupedOption, help="folder of the true meshes (rooms: of clouds), or thingi10k:ID,ID")
 @click.option(
     "--method",

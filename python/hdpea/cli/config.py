@@ -9,9 +9,11 @@ from typing import Any
 
 import click
 
-from hdpea.cli.parameters import GroupedOption
+from hdpea.cli.parameters import PATH, GroupedOption
 from hdpea.errors import UsageError
 from hdpea.options.settings import settings
+
+_USED = "hdpea.config"
 
 
 def read_config(path: Path) -> dict[str, Any]:
@@ -25,11 +27,12 @@ def read_config(path: Path) -> dict[str, Any]:
     import tomllib
 
     try:
-        content = tomllib.loads(path.read_text())
+        content = tomllib.loads(path.read_text(encoding="utf-8"))
     except OSError as error:
         raise UsageError(f"Cannot read {path}: {error.strerror}.", "Check the name and the permissions.") from error
-    except ValueError as error:
-        raise UsageError(f"{path} is not a TOML file: {error}.", "Lines look like: vertices = 5000") from error
+    except (ValueError, RecursionError) as error:
+        what = "its values are nested too deep" if isinstance(error, RecursionError) else error
+        raise UsageError(f"{path} is not a TOML file: {what}.", "Lines look like: vertices = 5000") from error
     names = [each.name for each in settings()]
     given = {}
     for key, value in content.items():
@@ -39,20 +42,34 @@ def read_config(path: Path) -> dict[str, Any]:
         if name not in names:
             near = get_close_matches(name, names, 1, cutoff=0)
             raise UsageError(f"{path} has an unknown key {key!r}.", f"The nearest known key is {near[0]!r}.")
-        # As on the command line, so that both are understood by the same rules.
-        given[name] = value if isinstance(value, bool) else str(value)
+        given[name] = value if isinstance(value, bool) else _as_flag(key, value, path)
     return given
+
+
+def _as_flag(key: str, value: object, path: Path) -> str:
+    """Return a value as the command line has it, so that both are understood by the same rules."""
+    try:
+        return str(value)
+    except (ValueError, RecursionError) as error:  # a whole number of more than 4,300 digits, or a list of lists
+        raise UsageError(f"The value of {key!r} in {path} is not a setting's.", "Such as: vertices = 5000") from error
 
 
 def _use_config(ctx: click.Context, _: click.Parameter, path: Path | None) -> None:
     if path is not None:
         ctx.default_map = read_config(path)
+        ctx.meta[_USED] = path
+
+
+def config_of(ctx: click.Context) -> Path | None:
+    """Return the config file that the command was given, if any."""
+    path: Path | None = ctx.meta.get(_USED)
+    return path
 
 
 config_option = click.option(
     "--config",
     cls=GroupedOption,
-    type=click.Path(path_type=Path),
+    type=PATH,
     is_eager=True,
     expose_value=False,
     callback=_use_config,

@@ -8,9 +8,10 @@ from typing import Any
 
 import click
 
-from hdpea.cli.parameters import GroupedCommand, GroupedOption, quiet_option, setting_options
+from hdpea.cli.parameters import PATH, GroupedCommand, GroupedOption, quiet_option, setting_options
 from hdpea.curvature.options import CurvatureOptions
 from hdpea.options.settings import filled
+from hdpea.runtime.outputs import check_distinct, check_output
 
 EPILOG = """\b
 Examples:
@@ -26,14 +27,12 @@ Exit codes: 0 ok, 1 internal error, 2 usage, 3 unreadable input,
 
 @click.command(cls=GroupedCommand, epilog=EPILOG, no_args_is_help=True, short_help="Estimate curvature tensors.")
 @click.argument("source", metavar="IN")
-@click.argument("output", metavar="OUT", type=click.Path(path_type=Path))
-@click.option(
-    "--picture", cls=GroupedOption, type=click.Path(path_type=Path), help="draw the tensors, as PNG; needs no screen"
-)
+@click.argument("output", metavar="OUT", type=PATH)
+@click.option("--picture", cls=GroupedOption, type=PATH, help="draw the tensors, as PNG; needs no screen")
 @click.option(
     "--page",
     cls=GroupedOption,
-    type=click.Path(path_type=Path),
+    type=PATH,
     help="draw them as an HTML file to turn and zoom, in any browser, offline",
 )
 @quiet_option
@@ -53,7 +52,8 @@ def command(*, source: str, output: Path, picture: Path | None, page: Path | Non
     Lengths are in the units of the file, or in percent of the diagonal of the cloud's bounding box.
     """
     options = filled(CurvatureOptions, values)
-    _check_outputs(source, output, picture, page)
+    _check_outputs(output, picture, page)
+    check_distinct([source, options.embedding.weights], [output, picture, page])
     from hdpea.curvature.estimation import estimate_curvature
     from hdpea.curvature.writing import write_curvature
     from hdpea.reading import read_points
@@ -81,12 +81,10 @@ def command(*, source: str, output: Path, picture: Path | None, page: Path | Non
         click.echo("\n".join([*cloud.notes, *summarize(tensors)]), err=True)
 
 
-def _check_outputs(source: str, output: Path, picture: Path | None, page: Path | None) -> None:
+def _check_outputs(output: Path, picture: Path | None, page: Path | None) -> None:
     from hdpea.curvature.writing import check_curvature_output
-    from hdpea.runtime.outputs import check_not_input, check_output
 
     check_curvature_output(output)
-    check_not_input(output, source)
     if picture:
         from hdpea.pictures.picture import PICTURE_FORMATS, check_drawing
 

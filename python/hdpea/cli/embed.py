@@ -8,8 +8,8 @@ from typing import Any
 
 import click
 
-from hdpea.cli.config import config_option
-from hdpea.cli.parameters import GroupedCommand, chosen_options, quiet_option, setting_options
+from hdpea.cli.config import config_of, config_option
+from hdpea.cli.parameters import PATH, GroupedCommand, chosen_options, quiet_option, setting_options
 
 EPILOG = """\b
 Examples:
@@ -20,7 +20,7 @@ Examples:
 
 @click.command(cls=GroupedCommand, epilog=EPILOG, no_args_is_help=True, short_help="Embed a point cloud into R^8.")
 @click.argument("source", metavar="IN")
-@click.argument("output", metavar="OUT", type=click.Path(path_type=Path))
+@click.argument("output", metavar="OUT", type=PATH)
 @config_option
 @quiet_option
 @setting_options("normals", "embedding", "run", also=["vertices", "particles"])
@@ -34,12 +34,12 @@ def command(ctx: click.Context, /, *, source: str, output: Path, quiet: bool, **
     """
     options = chosen_options(ctx, values)
     from hdpea.reading import read_points
-    from hdpea.runtime.outputs import check_not_input, check_output
+    from hdpea.runtime.outputs import check_distinct, check_output
     from hdpea.runtime.progress import shown, tell
     from hdpea.writing.meshes import POINT_FORMATS, write_points
 
     check_output(output, POINT_FORMATS)
-    check_not_input(output, source)
+    check_distinct([source, options.embedding.weights, config_of(ctx)], [output])
     with shown(quiet) as progress:
         tell(progress, "reading", 0.0)
         cloud = read_points(source)

@@ -9,7 +9,7 @@ from typing import Any
 
 import click
 
-from hdpea.cli.parameters import GroupedCommand, setting_options
+from hdpea.cli.parameters import PATH, GroupedCommand, setting_options
 from hdpea.evaluation.options import EvaluationOptions
 
 EPILOG = """\b
@@ -35,8 +35,8 @@ Exit codes: 0 ok, 2 usage, 3 unreadable input, 4 a surface without extent.
 
 
 @click.command(cls=GroupedCommand, epilog=EPILOG, no_args_is_help=True, short_help="Measure a mesh against the truth.")
-@click.argument("result", type=click.Path(path_type=Path))
-@click.argument("truth", type=click.Path(path_type=Path))
+@click.argument("result", type=PATH)
+@click.argument("truth", type=PATH)
 @click.option("--json", "as_json", is_flag=True, help="print everything as JSON, lengths unscaled")
 @setting_options("run", owner=EvaluationOptions, heading="Sampling")
 def command(result: Path, truth: Path, as_json: bool, **values: Any) -> None:

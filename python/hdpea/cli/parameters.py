@@ -3,12 +3,15 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Collection, Mapping
+from pathlib import Path
 from typing import Any, TypeVar
 
 import click
 from click.core import ParameterSource
 
+from hdpea.errors import HdpeaError
 from hdpea.options import Options
 from hdpea.options.lengths import Length
 from hdpea.options.position import Position
@@ -46,6 +49,25 @@ class ShareType(click.ParamType[float]):
             self.fail(f"{text!r} is not a number such as 0.003 or 0.3%.", param, ctx)
 
 
+class PathType(click.Path):
+    """The name of a file or folder, be there one or not; what no file can be called is a usage error."""
+
+    def __init__(self) -> None:
+        super().__init__(path_type=Path)
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
+        """Return the path."""
+        path = super().convert(value, param, ctx)
+        try:
+            Path(value).exists()
+        except OSError as error:
+            self.fail(f"{value}: {error.strerror}.", param, ctx)
+        return path
+
+
+PATH = PathType()
+
+
 class GroupedOption(click.Option):
     """An option listed under a heading of its own in the help."""
 
@@ -54,8 +76,43 @@ class GroupedOption(click.Option):
         self.group = group
 
 
+def with_flags(text: str, flags: Mapping[str, str]) -> str:
+    """Return a text of the library with `flags`, by the names of options, where it names one of those.
+
+    Examples
+    --------
+    >>> with_flags("Use `orient='auto'` or `refine=False`.", {"orient": "--orient", "refine": "--refine"})
+    'Use --orient auto or --no-refine.'
+    """
+
+    def flag(found: re.Match[str]) -> str:
+        name, value = found[1], found[2]
+        if name not in flags:
+            return found[0]
+        if value in ("True", "False"):
+            return flags[name] if value == "True" else f"--no-{flags[name][2:]}"
+        return f"{flags[name]} {value.strip(chr(39))}" if value else flags[name]
+
+    return _OPTION.sub(flag, text)
+
+
+_OPTION = re.compile(r"`(\w+)(?:=([^`]*))?`")
+
+
 class GroupedCommand(click.Command):
-    """A command whose help lists the options group by group, in the order in which they were added."""
+    """A command whose help lists the options group by group, in the order in which they were added.
+
+    The library's errors name options as Python does; where they come from a command, they name its flags.
+    """
+
+    def invoke(self, ctx: click.Context) -> Any:
+        """Run the command."""
+        try:
+            return super().invoke(ctx)
+        except HdpeaError as error:
+            flags = {str(each.name): each.opts[0] for each in self.params if isinstance(each, click.Option)}
+            error.message, error.hint = with_flags(error.message, flags), with_flags(error.hint, flags)
+            raise
 
     def format_options(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
         """Write one section per group."""
@@ -85,20 +142,25 @@ def setting_options(
     of their stage, or all under `heading`.
     """
     known = [each for each in settings(owner) if each.name not in without]
+    flags = {each.name: _flag_of(each) for each in known}
     chosen = [each for each in known if each.name in also]
     chosen += [each for stage in stages for each in known if each.stage == stage and each.name not in also]
 
     def decorate(function: Decorated) -> Decorated:
         # Decorators work from the last to the first.
         for each in reversed(chosen):
-            function = _flag(each, heading or each.stage.replace("_", " ").capitalize())(function)
+            function = _flag(each, flags, heading or each.stage.replace("_", " ").capitalize())(function)
         return function
 
     return decorate
 
 
-def _flag(setting: Setting, group: str) -> Callable[[Decorated], Decorated]:
-    flag = "--" + setting.name.replace("_", "-")
+def _flag_of(setting: Setting) -> str:
+    return "--" + setting.name.replace("_", "-")
+
+
+def _flag(setting: Setting, flags: Mapping[str, str], group: str) -> Callable[[Decorated], Decorated]:
+    flag = flags[setting.name]
     kinds: dict[type, Any] = {Length: ParsedType(Length), Position: ParsedType(Position), float: ShareType()}
     return click.option(
         f"{flag}/--no-{flag[2:]}" if setting.kind is bool else flag,
@@ -107,7 +169,7 @@ def _flag(setting: Setting, group: str) -> Callable[[Decorated], Decorated]:
         type=click.Choice(setting.choices) if setting.choices else kinds.get(setting.kind, setting.kind),
         default=setting.default,
         show_default=setting.default is not None,
-        help=setting.help,
+        help=with_flags(setting.help, flags),
     )
 
 

@@ -9,9 +9,10 @@ from typing import Any
 
 import click
 
-from hdpea.cli.config import config_option
-from hdpea.cli.parameters import GroupedCommand, GroupedOption, chosen_options, quiet_option, setting_options
+from hdpea.cli.config import config_of, config_option
+from hdpea.cli.parameters import PATH, GroupedCommand, GroupedOption, chosen_options, quiet_option, setting_options
 from hdpea.errors import QualityMissed
+from hdpea.runtime.outputs import check_distinct, check_output
 
 EPILOG = """\b
 Examples:
@@ -28,13 +29,9 @@ Exit codes: 0 ok, 1 internal error, 2 usage, 3 unreadable input,
 
 @click.command(cls=GroupedCommand, epilog=EPILOG, no_args_is_help=True, short_help="Make a mesh of a point cloud.")
 @click.argument("source", metavar="IN")
-@click.argument("output", metavar="OUT", type=click.Path(path_type=Path))
-@click.option(
-    "--report", cls=GroupedOption, type=click.Path(path_type=Path), help="write what was chosen and measured, as JSON"
-)
-@click.option(
-    "--picture", cls=GroupedOption, type=click.Path(path_type=Path), help="draw the mesh, as PNG; needs no screen"
-)
+@click.argument("output", metavar="OUT", type=PATH)
+@click.option("--report", cls=GroupedOption, type=PATH, help="write what was chosen and measured, as JSON")
+@click.option("--picture", cls=GroupedOption, type=PATH, help="draw the mesh, as PNG; needs no screen")
 @config_option
 @quiet_option
 @setting_options("meshing", "normals", "denoising", "embedding", "particles", "refinement", "run")
@@ -58,7 +55,8 @@ def command(
     Lengths are in the units of the file, or in percent of the diagonal of the cloud's bounding box.
     """
     options = chosen_options(ctx, values)
-    _check_outputs(source, output, report, picture)
+    _check_outputs(output, report, picture)
+    check_distinct([source, options.embedding.weights, config_of(ctx)], [output, report, picture])
     from hdpea.reading import read_points
     from hdpea.runtime.clock import StageClock
     from hdpea.runtime.progress import shown, tell
@@ -96,13 +94,11 @@ def command(
         raise QualityMissed(" ".join(result.report.missed), f"The mesh is in {output} all the same.")
 
 
-def _check_outputs(source: str, output: Path, report: Path | None, picture: Path | None) -> None:
+def _check_outputs(output: Path, report: Path | None, picture: Path | None) -> None:
     from hdpea.pictures.picture import PICTURE_FORMATS, check_drawing
-    from hdpea.runtime.outputs import check_not_input, check_output
     from hdpea.writing.meshes import MESH_FORMATS
 
     check_output(output, MESH_FORMATS)
-    check_not_input(output, source)
     if report:
         check_output(report, [".json"])
     if picture:

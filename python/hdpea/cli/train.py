@@ -9,7 +9,7 @@ from typing import Any
 import click
 from click.core import ParameterSource
 
-from hdpea.cli.parameters import GroupedCommand, GroupedOption, quiet_option, setting_options
+from hdpea.cli.parameters import PATH, GroupedCommand, GroupedOption, quiet_option, setting_options
 from hdpea.network.options import CONFIGURATIONS
 from hdpea.options.settings import as_dict, filled
 from hdpea.training.options import PRESETS, TrainingOptions
@@ -28,19 +28,19 @@ def _use_preset(ctx: click.Context, _: click.Parameter, name: str) -> str:
 
 
 @click.command(cls=GroupedCommand, epilog=EPILOG, no_args_is_help=True, short_help="Train a network to embed.")
-@click.argument("dataset", type=click.Path(path_type=Path))
-@click.argument("out", type=click.Path(path_type=Path))
+@click.argument("dataset", type=PATH)
+@click.argument("out", type=PATH)
 @click.option(
     "--also",
     cls=GroupedOption,
-    type=click.Path(path_type=Path),
+    type=PATH,
     multiple=True,
     help="a further dataset to train on, such as one of scans; may be repeated",
 )
 @click.option(
     "--validation",
     cls=GroupedOption,
-    type=click.Path(path_type=Path),
+    type=PATH,
     help="dataset whose clouds are reconstructed at intervals, to keep the best weights",
 )
 @click.option(

@@ -74,5 +74,5 @@ def _bend(jets: _core.Jets) -> NDArray[np.float64]:
 def _nearest(surface: Surface, count: int) -> NDArray[np.int64]:
     if count <= surface.neighbors.shape[1]:
         return np.ascontiguousarray(surface.neighbors[:, :count])
-    nearest = _core.nearest_neighbors(surface.points_in_unit, count)
+    nearest = _core.nearest_neighbors(surface.points_in_unit, min(count, len(surface.points_in_unit) - 1))
     return _core.sheet_neighbors(surface.points_in_unit, surface.normals, nearest)

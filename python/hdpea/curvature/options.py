@@ -66,4 +66,4 @@ class CurvatureOptions(Checked):
     def __post_init__(self) -> None:
         super().__post_init__()
         if self.embedding.metric_scale == 0:
-            raise UsageError("A metric of scale 0 stretches nothing.", "Give a --metric-scale above 0.")
+            raise UsageError("A metric of scale 0 stretches nothing.", "Give a `metric_scale` above 0.")

@@ -67,7 +67,8 @@ def write_page(path: Path, tensors: CurvatureTensors, title: str = "curvature") 
     for name, value in values.items():
         content = content.replace(f"{{{{{name}}}}}", value)
     with replacing(path) as partial:
-        partial.write_text(content, encoding="utf-8")
+        # The title may be the name of a file, which need not be text.
+        partial.write_text(content, encoding="utf-8", errors="replace")
 
 
 def _rounded(rows: NDArray[np.float64]) -> list[list[float]]:

@@ -24,11 +24,14 @@ from hdpea.dataset.sample_generation import make_sample
 from hdpea.dataset.sources import Source
 from hdpea.dataset.surface_file import read_surface
 from hdpea.errors import QualityMissed, core_errors_translated
-from hdpea.runtime.outputs import replacing
+from hdpea.runtime.outputs import check_outside, replacing
 from hdpea.runtime.processes import Outcome, run_isolated
 from hdpea.version import version
 
 IDENTITY = "identity"
+
+SAMPLES = "samples"
+"""The folder of the samples in that of the dataset."""
 
 
 @dataclass(frozen=True)
@@ -81,8 +84,8 @@ def build_dataset(
     UnreadableInput
         If there are no meshes.
     UsageError
-        If `folder` cannot be written, or holds anything but a dataset of these meshes and options; if scans are
-        requested and embreex is not installed.
+        If `folder` cannot be written, or holds anything but a dataset of these meshes and options; if a mesh lies
+        where the samples go; if scans are requested and embreex is not installed.
     QualityMissed
         If no mesh could be used.
     """
@@ -90,6 +93,7 @@ def build_dataset(
     if options.sample.kind == "scan":
         require_embree()  # reported once, not for every mesh
     sources = find_meshes(where)
+    check_outside(folder / SAMPLES, [each.path for each in sources])
     manifest = Manifest(version(), options_for_manifest(options))
     finished = open_folder(folder, manifest, sources)
     done = dict(finished)
@@ -157,7 +161,7 @@ def _entry(folder: Path, task: Task, outcome: Outcome[list[EncodedSample]]) -> M
 
 def _written(folder: Path, mesh: str, made: EncodedSample) -> SampleEntry:
     name = mesh if made.augmentation is None else f"{mesh}.{made.augmentation}"
-    path = folder / "samples" / f"{name}.npz"
+    path = folder / SAMPLES / f"{name}.npz"
     path.parent.mkdir(parents=True, exist_ok=True)
     with replacing(path) as partial:
         partial.write_bytes(made.content)

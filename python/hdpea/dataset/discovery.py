@@ -80,7 +80,7 @@ def _known_origins(folder: Path) -> dict[Path, tuple[str, str]]:
     try:
         files = json.loads(manifest.read_text())["files"]
         return {(manifest.parent / each["path"]).resolve(): _origin_and_licence(each) for each in files}
-    except (OSError, ValueError, LookupError, TypeError, AttributeError) as error:
+    except (OSError, ValueError, LookupError, TypeError, AttributeError, RecursionError) as error:
         raise UnreadableInput(
             f"Cannot read the licences in {manifest}: {error!r}.", 'It is {"files": [{"path": ..., "licence": ...}]}.'
         ) from error

@@ -86,6 +86,11 @@ def write_manifest(folder: Path, manifest: Manifest) -> None:
         partial.write_text(json.dumps({"schema": SCHEMA, **asdict(manifest)}, indent=1) + "\n")
 
 
+def manifest_file(path: Path) -> Path:
+    """Return the manifest's file, given that or the folder of the dataset."""
+    return path / MANIFEST_NAME if path.is_dir() else path
+
+
 def read_manifest(path: Path) -> Manifest:
     """Read the manifest of a dataset, given the file or its folder.
 
@@ -94,7 +99,7 @@ def read_manifest(path: Path) -> Manifest:
     UnreadableInput
         If there is none, it is damaged, or of a newer schema.
     """
-    file = path / MANIFEST_NAME if path.is_dir() else path
+    file = manifest_file(path)
     if path.is_dir() and not file.exists():
         raise UnreadableInput(
             f"{path} is not a dataset: it has no {MANIFEST_NAME}.", "`hdpea dataset build` makes one."
@@ -105,7 +110,7 @@ def read_manifest(path: Path) -> Manifest:
         read = _READERS.get(schema)
         if read is not None:
             return read(content)
-    except (ValueError, TypeError, LookupError, AttributeError) as error:
+    except (ValueError, TypeError, LookupError, AttributeError, RecursionError) as error:
         what = f"it is not the manifest of a dataset ({type(error).__name__}: {error})"
         raise UnreadableInput(f"Cannot read {file}: {what}.", "Build the dataset again.") from error
     raise UnreadableInput(

@@ -21,12 +21,12 @@ from hdpea.geometry.unit_frame import UnitFrame
 from hdpea.options import EmbeddingOptions, Options
 from hdpea.options.choice import Choice
 from hdpea.reading.cloud import PointCloud, cleaned_cloud
-from hdpea.runtime.progress import ProgressCallback, of_phase
+from hdpea.runtime.progress import PhaseCallback, ProgressCallback, of_phase
 from hdpea.runtime.threads import limited_threads
 from hdpea.surface.preparation import prepare_surface
 from hdpea.surface.surface import Surface
 
-Embedder = Callable[[Surface, int, EmbeddingOptions, Callable[[float], bool]], Embedded]
+Embedder = Callable[[Surface, int, EmbeddingOptions, PhaseCallback], Embedded]
 
 EMBEDDERS: dict[str, Embedder] = {"direct": embed_directly, "learned": embed_learned}
 

@@ -3,34 +3,28 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 import numpy as np
 
 from hdpea import _core
 from hdpea.embedding.embedded import Embedded
-from hdpea.errors import UsageError
 from hdpea.geometry.metric import ScaledMetric
 from hdpea.options import EmbeddingOptions
 from hdpea.options.choice import Choice
 from hdpea.options.embedding import BENDING_LENGTH, CURVATURE_RADIUS
 from hdpea.options.lengths import Length
+from hdpea.runtime.progress import PhaseCallback
 from hdpea.surface.surface import Surface
 from hdpea.surface.triangle_soup import triangle_soup
 
+LONGEST_BENDING = 1e3
+"""In diagonals of the cloud: beyond it psi does not bend at all, and its system is too stiff for double precision."""
 
-def embed_directly(
-    surface: Surface, vertices: int, options: EmbeddingOptions, progress: Callable[[float], bool]
-) -> Embedded:
+
+def embed_directly(surface: Surface, vertices: int, options: EmbeddingOptions, progress: PhaseCallback) -> Embedded:
     """Return the embedding [p, psi] of a surface, at the scale of a mesh with that many `vertices`.
 
     Curvature is fitted to the normals; psi is solved for on a soup of restricted Delaunay triangles in place of a mesh
     (``solve_embedding`` of the core).
-
-    Raises
-    ------
-    UsageError
-        If a length in the options is longer than the diagonal of the cloud.
     """
     points, normals = surface.points_in_unit, surface.normals
     soup = triangle_soup(points, normals, surface.neighbors)
@@ -39,16 +33,13 @@ def embed_directly(
 
     def choose(name: str, given: Length | None, per_spacing: float) -> float:
         if given is not None:
-            length = surface.frame.length_to_unit(given)
-            if length > 1:
-                raise UsageError(f"{name} {given} is longer than the diagonal of the cloud.", "Give a shorter one.")
-            return length
+            return surface.frame.length_to_unit(given)
         chosen = per_spacing * spacing
         why = f"{per_spacing:g} times the spacing of {vertices:,} particles on the surface"
         choices.append(Choice(name, chosen * surface.frame.diagonal, "world units", why))
         return chosen
 
-    bending_length = choose("bending_length", options.bending_length, BENDING_LENGTH)
+    bending_length = min(choose("bending_length", options.bending_length, BENDING_LENGTH), LONGEST_BENDING)
     curvature_radius = choose("curvature_radius", options.curvature_radius, CURVATURE_RADIUS)
     metric = ScaledMetric(options.metric_scale, options.max_stretch, bending_length, curvature_radius)
     curvature = _core.estimate_curvature(points, normals, surface.neighbors, metric.curvature_radius)

@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -14,15 +13,14 @@ from hdpea.geometry.interpolation import Interpolation
 from hdpea.geometry.thinning import thinned
 from hdpea.options import EmbeddingOptions
 from hdpea.options.choice import Choice
+from hdpea.runtime.progress import PhaseCallback
 from hdpea.surface.surface import NEIGHBORS, Surface, area_shown
 
 PER_VERTEX = (4.0, 12.0)
 """Least and most points per vertex in training: 20,000 to 60,000 for 5,000 vertices."""
 
 
-def embed_learned(
-    surface: Surface, vertices: int, options: EmbeddingOptions, progress: Callable[[float], bool]
-) -> Embedded:
+def embed_learned(surface: Surface, vertices: int, options: EmbeddingOptions, progress: PhaseCallback) -> Embedded:
     """Return the embedding [p, psi] of a surface by a network, at the scale of a mesh with that many `vertices`.
 
     A cloud of more points per vertex than there were in training is thinned before the network, and psi interpolated

@@ -88,7 +88,7 @@ def extract_mesh(
         extracted = _core.extract_manifold(particles.coordinates, normals, radii, on_points, limits)
         if len(extracted.faces) == 0:
             raise CannotReconstruct(
-                "No triangle holds on these points.", "They may be too few or too noisy; try fewer --particles."
+                "No triangle holds on these points.", "They may be too few or too noisy; try fewer `particles`."
             )
         coordinates = particles.coordinates[extracted.sources]
         mesh = _fill_holes(coordinates, extracted, surface.frame, options)

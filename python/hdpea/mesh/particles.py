@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -14,6 +13,7 @@ from hdpea import _core
 from hdpea.errors import core_errors_translated
 from hdpea.mesh.cells import restricted_cells
 from hdpea.options import ParticleOptions
+from hdpea.runtime.progress import PhaseCallback
 
 if TYPE_CHECKING:
     import torch
@@ -106,7 +106,7 @@ def spread_particles(
     count: int,
     *,
     options: ParticleOptions | None = None,
-    progress: Callable[[float], bool] | None = None,
+    progress: PhaseCallback | None = None,
 ) -> Particles:
     """Spread `count` particles evenly over a surface in R^d.
 

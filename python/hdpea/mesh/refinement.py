@@ -3,13 +3,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import replace
 
 from hdpea import _core
 from hdpea.errors import core_errors_translated
 from hdpea.mesh.extraction import Mesh
 from hdpea.options import RefinementOptions
+from hdpea.runtime.progress import PhaseCallback
 from hdpea.surface.surface import Surface
 
 
@@ -17,7 +17,7 @@ def refine_mesh(
     mesh: Mesh,
     surface: Surface,
     options: RefinementOptions | None = None,
-    progress: Callable[[float], bool] | None = None,
+    progress: PhaseCallback | None = None,
 ) -> Mesh:
     """Return the mesh with its vertices moved so that the faces run through the points (least squares).
 

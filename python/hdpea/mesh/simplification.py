@@ -7,16 +7,16 @@ collapsing edges of a finer one.
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import replace
 
 from hdpea import _core
 from hdpea.errors import core_errors_translated
 from hdpea.mesh.extraction import Mesh
 from hdpea.options import MeshingOptions
+from hdpea.runtime.progress import PhaseCallback
 
 
-def simplify_mesh(mesh: Mesh, options: MeshingOptions, progress: Callable[[float], bool] | None = None) -> Mesh:
+def simplify_mesh(mesh: Mesh, options: MeshingOptions, progress: PhaseCallback | None = None) -> Mesh:
     """Return the mesh with edges collapsed until it has no more vertices, or faces, than are wanted.
 
     The cheapest edge goes first; its cost is the squared distance from the original surface (Garland and Heckbert

@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -16,6 +15,7 @@ from hdpea.network.patches import cut_patches, joined_psi
 from hdpea.network.settling import ROUNDS, settled
 from hdpea.network.transformer import PointTransformer
 from hdpea.options import EmbeddingOptions
+from hdpea.runtime.progress import PhaseCallback
 
 PATCH_POINTS = 30_000
 """Points of a patch."""
@@ -30,7 +30,7 @@ def predict_psi(
     neighbors: NDArray[np.int64],
     spacing: float,
     whole_points: int = EmbeddingOptions.whole_points,
-    progress: Callable[[float], bool] = lambda _: True,
+    progress: PhaseCallback = lambda _: True,
     rounds: int = ROUNDS,
 ) -> Array:
     """Return the extra coordinates psi (n, 5) of points, in their own units.
@@ -106,7 +106,7 @@ def _embedded(network: PointTransformer, cloud: _Cloud, rounds: int) -> Array:
     return settled(cloud.points, cloud.normals, cloud.neighbors, psi.astype(np.float64), network.metric, rounds)
 
 
-def _in_patches(network: PointTransformer, cloud: _Cloud, rounds: int, progress: Callable[[float], bool]) -> Array:
+def _in_patches(network: PointTransformer, cloud: _Cloud, rounds: int, progress: PhaseCallback) -> Array:
     centres, patches = cut_patches(cloud.points, PATCH_POINTS)
     psis = []
     for number, patch in enumerate(patches):

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import Field, dataclass, field, fields
 from typing import Any
 
@@ -24,16 +25,17 @@ def _check(field: Field[Any], value: Any) -> None:
     whole, number = field.type in {"int", "int | None"}, field.type in {"float", "float | None"}
     minimum, maximum = field.metadata.get("minimum"), field.metadata.get("maximum", LARGEST if whole else None)
     if whole and not hasattr(value, "__index__"):
-        raise UsageError(f"{field.name} is a whole number, not {value!r}.")
+        raise UsageError(f"`{field.name}` is a whole number, not {value!r}.")
     if number and not hasattr(value, "__float__"):
-        raise UsageError(f"{field.name} is a number, not {value!r}.")
+        raise UsageError(f"`{field.name}` is a number, not {value!r}.")
     if choices is not None and value not in choices:
-        raise UsageError(f"{field.name} is one of {', '.join(choices)}, not {value!r}.")
-    # Written so that NaN is refused too.
+        raise UsageError(f"`{field.name}` is one of {', '.join(choices)}, not {value!r}.")
+    if isinstance(value, float) and not math.isfinite(value):
+        raise UsageError(f"`{field.name}` is a number, not {value}.")
     if minimum is not None and not value >= minimum:
-        raise UsageError(f"{field.name} is at least {minimum}, not {value}.")
+        raise UsageError(f"`{field.name}` is at least {minimum}, not {value}.")
     if maximum is not None and not value <= maximum:
-        raise UsageError(f"{field.name} is at most {maximum}, not {value}.")
+        raise UsageError(f"`{field.name}` is at most {maximum}, not {value}.")
 
 
 @dataclass(frozen=True)

@@ -46,5 +46,5 @@ class EmbeddingOptions(Checked):
         super().__post_init__()
         if self.weights is not None and self.embedding != "learned":
             raise UsageError(
-                f"The {self.embedding} embedding has no use for weights.", "Give --embedding learned as well."
+                f"The {self.embedding} embedding has no use for weights.", "Give `embedding='learned'` as well."
             )

@@ -20,7 +20,7 @@ class MeshingOptions(Checked):
     vertices: int | None = option(
         None, f"vertices wanted; default: one for every {POINTS_PER_VERTEX} points", minimum=4
     )
-    faces: int | None = option(None, "faces wanted, instead of --vertices", minimum=4)
+    faces: int | None = option(None, "faces wanted, instead of `vertices`", minimum=4)
     fill_holes: Length | None = option(
         None, "fill holes up to this size across, as 0.02 or 1%; default: 4 times the spacing of the particles; 0: none"
     )

@@ -34,7 +34,7 @@ class NormalOptions(Checked):
     )
     viewpoint: Position | None = option(
         None,
-        "X,Y,Z of the sensor, in the units of the file, for --orient viewpoint; default: each point's own, "
+        "X,Y,Z of the sensor, in the units of the file, for `orient='viewpoint'`; default: each point's own, "
         "from the file's sensor_x, sensor_y and sensor_z, or array sensor",
     )
 
@@ -42,5 +42,5 @@ class NormalOptions(Checked):
         super().__post_init__()
         if self.viewpoint is not None and self.orient != "viewpoint":
             raise UsageError(
-                f"A viewpoint is of no use with orient {self.orient}.", "Add --orient viewpoint, or leave it out."
+                f"A viewpoint is of no use with orient {self.orient}.", "Add `orient='viewpoint'`, or leave it out."
             )

@@ -81,11 +81,20 @@ def read_points(path: str | PurePath) -> PointCloud:
         If the file is missing, cannot be opened, is damaged, of an unknown format, or has no points.
     """
     name = "standard input" if str(path) == "-" else str(path)
-    data = sys.stdin.buffer.read() if str(path) == "-" else read_bytes(Path(path))
+    data = _standard_input() if str(path) == "-" else read_bytes(Path(path))
     try:
         return cleaned(parse_points(data, Path(path).suffix.lower()))
     except UnreadableInput as error:
         raise UnreadableInput(f"Cannot read {name}: {error.message}", error.hint) from error
+
+
+def _standard_input() -> bytes:
+    if sys.stdin is None:
+        raise UnreadableInput("Cannot read standard input: it is closed.", "Pipe a file into it, or name the file.")
+    try:
+        return sys.stdin.buffer.read()
+    except OSError as error:
+        raise UnreadableInput(f"Cannot read standard input: {error.strerror or error}.", "Name the file.") from error
 
 
 def read_bytes(path: Path) -> bytes:

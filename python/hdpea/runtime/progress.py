@@ -11,10 +11,19 @@ from contextlib import AbstractContextManager, contextmanager, nullcontext
 from hdpea.errors import Interrupted
 
 ProgressCallback = Callable[[str, float], object]
-"""Takes the name of a phase and the fraction of it done, in [0, 1].
+"""What users give: a function of the name of a phase and the fraction of it done, in [0, 1].
 
-What it returns asks to stop if it is false, as False and 0 are; None, as of a function that returns nothing, goes on.
+It asks to stop by returning False, or whatever else is false (0, ``numpy.False_``); None, which a function without a
+return statement returns, goes on. See ``goes_on``.
 """
+
+PhaseCallback = Callable[[float], bool]
+"""The same for one phase, of which it knows the name: what stages and the core are given, see ``of_phase``."""
+
+
+def goes_on(answer: object) -> bool:
+    """Say whether the run goes on after a callback has returned `answer`; bindings/bindings.hpp has the same rule."""
+    return answer is None or bool(answer)
 
 
 def tell(progress: ProgressCallback | None, phase: str, fraction: float) -> None:
@@ -23,14 +32,9 @@ def tell(progress: ProgressCallback | None, phase: str, fraction: float) -> None
         raise Interrupted
 
 
-def of_phase(progress: ProgressCallback | None, phase: str) -> Callable[[float], bool]:
-    """Return the callback for one phase in the form that the core takes: of the fraction alone, True to go on."""
-
-    def goes_on(fraction: float) -> bool:
-        answer = None if progress is None else progress(phase, fraction)
-        return answer is None or bool(answer)
-
-    return goes_on
+def of_phase(progress: ProgressCallback | None, phase: str) -> PhaseCallback:
+    """Return the callback for one phase."""
+    return lambda fraction: progress is None or goes_on(progress(phase, fraction))
 
 
 def shown(quiet: bool = False) -> AbstractContextManager[ProgressCallback | None]:

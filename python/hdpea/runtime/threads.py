@@ -11,13 +11,14 @@ from contextlib import contextmanager
 # fifty times slower. Read by OpenMP once, when torch is imported.
 os.environ.setdefault("OMP_WAIT_POLICY", "PASSIVE")
 
-MOST_THREADS = 256
-"""More than any machine gains from; memory is reserved for each."""
+
+MOST_THREADS = max(64, os.cpu_count() or 1)
+"""More are of no use, and each takes memory even while it waits."""
 
 
 @contextmanager
 def limited_threads(count: int) -> Iterator[None]:
-    """Limit the core and torch to `count` threads meanwhile, ``MOST_THREADS`` at most; 0: no limit."""
+    """Limit the core and torch to `count` threads meanwhile, at most ``MOST_THREADS``; 0: no limit."""
     if count == 0:
         # Nothing to tell torch, which a run may not need, and takes seconds to load.
         yield
@@ -26,7 +27,8 @@ def limited_threads(count: int) -> Iterator[None]:
 
     from hdpea import _core
 
-    before, count = torch.get_num_threads(), min(count, MOST_THREADS)
+    count = min(count, MOST_THREADS)
+    before = torch.get_num_threads()
     torch.set_num_threads(count)
     _core.set_thread_limit(count)
     try:

@@ -93,7 +93,7 @@ def oriented_surface(
     usable: NDArray[np.bool_] = np.asarray(given.any(axis=1))
     if options.normals == "file" and not usable.all():
         raise UnreadableInput(
-            f"{int((~usable).sum())} points have no usable normal.", "Use --normals auto to estimate those."
+            f"{int((~usable).sum())} points have no usable normal.", "Use `normals='auto'` to estimate those."
         )
     require_signs(given, sensors_in_world, options)
     if options.normals == "estimate":
@@ -143,6 +143,6 @@ def _directions(
         if count == enough:
             why = str(roughness)
         choices = (Choice("normal_neighbors", count, "points", why),)
-    fitted = neighbors if count <= NEIGHBORS else _core.nearest_neighbors(points, count)
+    fitted = neighbors if count <= NEIGHBORS else _core.nearest_neighbors(points, min(count, len(points) - 1))
     estimated = _core.estimate_normals(points, np.ascontiguousarray(fitted[:, :count]))
     return np.where(usable[:, None], given, estimated), choices

@@ -3,7 +3,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -12,6 +11,7 @@ from numpy.typing import NDArray
 from hdpea import _core
 from hdpea.errors import UnreadableInput, UsageError
 from hdpea.options import NormalOptions
+from hdpea.runtime.progress import PhaseCallback
 from hdpea.surface.roughness import Roughness
 
 Vectors = NDArray[np.float64]
@@ -80,15 +80,15 @@ def require_signs(given: Vectors, sensors: Vectors | None, options: NormalOption
         If there is no viewpoint to orient towards.
     """
     if options.orient == "file" and not given.any():
-        raise UnreadableInput("There are no usable normals whose orientation to keep.", "Use --orient auto.")
+        raise UnreadableInput("There are no usable normals whose orientation to keep.", "Use `orient='auto'`.")
     if options.orient == "viewpoint" and options.viewpoint is None:
         if sensors is None:
             raise UsageError(
                 "There is no viewpoint to turn the normals to.",
-                "Give --viewpoint X,Y,Z, or properties sensor_x, sensor_y and sensor_z in the file.",
+                "Give a `viewpoint`, or properties sensor_x, sensor_y and sensor_z in the file.",
             )
         if not np.isfinite(sensors).all():
-            raise UnreadableInput("Not every point's sensor position is finite.", "Give one --viewpoint X,Y,Z.")
+            raise UnreadableInput("Not every point's sensor position is finite.", "Give one `viewpoint`.")
 
 
 def orient(
@@ -97,7 +97,7 @@ def orient(
     evidence: SignEvidence,
     method: str,
     seen_from: Vectors | None = None,
-    progress: Callable[[float], bool] | None = None,
+    progress: PhaseCallback | None = None,
 ) -> Orientation:
     """Give normals their signs by the given method of ``NormalOptions.orient``.
 
@@ -120,7 +120,7 @@ def orient(
 
 
 def _by_best_method(
-    points: Vectors, directions: Vectors, evidence: SignEvidence, progress: Callable[[float], bool] | None
+    points: Vectors, directions: Vectors, evidence: SignEvidence, progress: PhaseCallback | None
 ) -> Orientation:
     given = evidence.consistency(points)
     if given is not None and given >= TRUSTED_CONSISTENCY:
@@ -163,7 +163,7 @@ def by_winding_number(
     points: Vectors,
     directions: Vectors,
     evidence: SignEvidence,
-    progress: Callable[[float], bool] | None = None,
+    progress: PhaseCallback | None = None,
 ) -> Vectors:
     """Take the signs of the winding number's normals; estimates far from these are replaced by them."""
     options, roughness = _core.WnncOptions(), evidence.roughness

@@ -63,7 +63,7 @@ class Training:
         same_length = replace(checkpoint.training, steps=self.options.steps, epochs=self.options.epochs)
         if checkpoint.network != self.network.options or same_length != self.options:
             raise UsageError(
-                "The checkpoint was made with other options.", "Use those, or another folder; only --steps may change."
+                "The checkpoint was made with other options.", "Use those, or another folder; only `steps` may change."
             )
         self.network.load_state_dict(checkpoint.weights)
         for name, value in self.averaged.items():

@@ -3,14 +3,17 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping
 from pathlib import Path
 
 import numpy as np
 from numpy.lib.recfunctions import repack_fields
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 from plyfile import PlyData, PlyElement
 
+from hdpea.errors import UsageError
+from hdpea.geometry.unit_frame import diagonal_of
 from hdpea.runtime.outputs import check_output, replacing
 
 Points = NDArray[np.float64]
@@ -19,30 +22,49 @@ Faces = NDArray[np.int64]
 FLOAT32_LOSS = 1e-6
 """Largest share of the diagonal that a vertex may move by being stored in single precision."""
 
+FLOAT32_LEAST, FLOAT32_MOST = 1e-30, 1e30
+"""Sizes of meshes between which single precision has all its digits for their details, too."""
 
-def write_mesh(path: Path, vertices: Points, faces: Faces) -> None:
+
+def write_mesh(path: Path, vertices: ArrayLike, faces: ArrayLike) -> None:
     """Write a triangle mesh as OBJ, PLY, OFF, STL or GLB, by the extension of `path`.
 
     OBJ, PLY and OFF hold the vertices exactly. STL is binary, or text where single precision would
-    move the vertices of a georeferenced mesh. GLB is shifted to its centre; its node holds the shift.
+    move the vertices of a georeferenced mesh. GLB is shifted to its centre, and scaled if single precision could not
+    hold its size; its node holds the shift and the scale.
 
     Parameters
     ----------
     path
         Replaced only once the new file is complete.
     vertices
-        (v, 3) float64.
+        (v, 3), finite.
     faces
         (f, 3) indices of vertices.
 
     Raises
     ------
     UsageError
-        If the file cannot be written.
+        If the file cannot be written, or the arrays are no mesh.
     """
     check_output(path, MESH_FORMATS)
+    vertices, faces = _checked(vertices, faces)
     with replacing(path) as partial:
         partial.write_bytes(MESH_FORMATS[path.suffix.lower()](vertices, faces))
+
+
+def _checked(vertices: ArrayLike, faces: ArrayLike) -> tuple[Points, Faces]:
+    """Return the arrays of a mesh in their types."""
+    hint = "Vertices are numbers of shape (v, 3), faces indices of them of shape (f, 3)."
+    rows, corners = np.asarray(vertices), np.asarray(faces)
+    for name, array, kinds in (("vertices", rows, "fiu"), ("faces", corners, "iu")):
+        if array.ndim != 2 or array.shape[1] != 3 or array.dtype.kind not in kinds:
+            raise UsageError(f"The {name} are {array.dtype} of shape {array.shape}.", hint)
+    if not np.isfinite(rows).all():
+        raise UsageError("Not all vertices are finite.", hint)
+    if corners.size and not 0 <= corners.min() <= corners.max() < len(rows):
+        raise UsageError("A face has a corner that is no vertex.", hint)
+    return rows.astype(np.float64), corners.astype(np.int64)
 
 
 def write_points(path: Path, points: Points, normals: Points, coordinates: Points) -> None:
@@ -110,22 +132,34 @@ def _stl(vertices: Points, faces: Faces) -> bytes:
     import trimesh  # takes a second, which the other formats need not wait for
 
     mesh = trimesh.Trimesh(vertices, faces, process=False)
-    loss = abs(vertices - vertices.astype(np.float32)).max(initial=0)
-    if loss > FLOAT32_LOSS * np.linalg.norm(np.ptp(vertices, axis=0)):
-        return trimesh.exchange.stl.export_stl_ascii(mesh).encode()
-    return trimesh.exchange.stl.export_stl(mesh)
+    # What is too large for single precision is infinitely far off.
+    with np.errstate(all="ignore"):
+        loss = abs(vertices - vertices.astype(np.float32)).max(initial=0)
+        if loss > FLOAT32_LOSS * diagonal_of(*_bounds(vertices)):
+            return trimesh.exchange.stl.export_stl_ascii(mesh).encode()
+        return trimesh.exchange.stl.export_stl(mesh)
+
+
+def _bounds(vertices: Points) -> tuple[Points, Points]:
+    """Return the lowest and the highest corner (3,) of the bounding box; that of nothing is the origin."""
+    return (vertices.min(axis=0), vertices.max(axis=0)) if len(vertices) else (np.zeros(3), np.zeros(3))
 
 
 def _glb(vertices: Points, faces: Faces) -> bytes:
     import trimesh
 
-    center = (vertices.min(axis=0) + vertices.max(axis=0)) / 2
+    lowest, highest = _bounds(vertices)
+    center, extent = lowest / 2 + highest / 2, diagonal_of(lowest, highest)
+    # A power of two, by which scaling loses nothing.
+    scale = 1.0 if FLOAT32_LEAST < extent < FLOAT32_MOST else 2.0 ** math.frexp(extent)[1]
+    transform = np.diag([scale, scale, scale, 1.0])
+    transform[:3, 3] = center
     scene = trimesh.Scene()
     scene.add_geometry(
-        trimesh.Trimesh(vertices - center, faces, process=False),
+        trimesh.Trimesh((vertices - center) / scale, faces, process=False),
         node_name="mesh",
         geom_name="mesh",
-        transform=trimesh.transformations.translation_matrix(center),
+        transform=transform,
     )
     content: bytes = trimesh.exchange.gltf.export_glb(scene)
     return content

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 import click
 from click.core import ParameterSource
 
-from hdpea.cli.parameters import GroupedCommand, GroupedOption, quiet_option, setting_options
+from hdpea.cli.parameters import PATH, GroupedCommand, GroupedOption, quiet_option, setting_options
 from hdpea.dataset.options import DatasetOptions
 from hdpea.errors import UsageError
 
@@ -30,11 +30,11 @@ Exit codes: 0 ok, 2 usage, 3 no meshes, 5 none usable or other bytes than --like
 
 @click.command(cls=GroupedCommand, epilog=EPILOG, no_args_is_help=True, short_help="Make a sample of every mesh.")
 @click.argument("meshes")
-@click.argument("output", metavar="OUT", type=click.Path(path_type=Path))
+@click.argument("output", metavar="OUT", type=PATH)
 @click.option(
     "--like",
     cls=GroupedOption,
-    type=click.Path(path_type=Path),
+    type=PATH,
     help="take every option from this manifest, and check that the result has the same bytes",
 )
 @quiet_option
@@ -52,12 +52,15 @@ def command(ctx: click.Context, /, *, meshes: str, output: Path, like: Path | No
     (sqrt(area / vertices)) where it says so.
     """
     from hdpea.dataset.build import build_dataset
-    from hdpea.dataset.manifest import read_manifest
+    from hdpea.dataset.card import CARD_NAME
+    from hdpea.dataset.manifest import MANIFEST_NAME, manifest_file, read_manifest
     from hdpea.dataset.manifest_options import options_from_manifest
     from hdpea.dataset.verification import require_same_bytes
     from hdpea.options.settings import RUN, filled, settings
+    from hdpea.runtime.outputs import check_distinct
 
     wanted = None if like is None else read_manifest(like)
+    check_distinct([like and manifest_file(like)], [output / MANIFEST_NAME, output / CARD_NAME])
     if wanted is None:
         options = filled(DatasetOptions, values)
     else:

@@ -9,7 +9,7 @@ from typing import Any
 
 import click
 
-from hdpea.cli.parameters import GroupedCommand, setting_options
+from hdpea.cli.parameters import PATH, GroupedCommand, setting_options
 from hdpea.dataset.options import DegradationOptions
 
 EPILOG = """\b
@@ -20,8 +20,8 @@ Examples:
 
 
 @click.command(cls=GroupedCommand, epilog=EPILOG, no_args_is_help=True, short_help="Degrade a sample.")
-@click.argument("source", metavar="IN", type=click.Path(path_type=Path))
-@click.argument("output", metavar="OUT", type=click.Path(path_type=Path))
+@click.argument("source", metavar="IN", type=PATH)
+@click.argument("output", metavar="OUT", type=PATH)
 @setting_options("run", owner=DegradationOptions, heading="Degradation")
 def command(source: Path, output: Path, **values: Any) -> None:
     """Degrade the sample IN to resemble a scan, and write it as OUT; both are NPZ.
@@ -33,11 +33,11 @@ def command(source: Path, output: Path, **values: Any) -> None:
     from hdpea.dataset.normal_estimation import estimated_normals
     from hdpea.dataset.sample_file import SAMPLE_FORMATS, read_sample, write_sample
     from hdpea.options.settings import filled
-    from hdpea.runtime.outputs import check_not_input, check_output
+    from hdpea.runtime.outputs import check_distinct, check_output
 
     options = filled(DegradationOptions, values)
     check_output(output, SAMPLE_FORMATS)
-    check_not_input(output, str(source))
+    check_distinct([source], [output])
     sample = read_sample(source)
     worse = degraded(sample, options)
     if sample.estimated_normals is not None:

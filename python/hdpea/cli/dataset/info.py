@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from hdpea.cli.parameters import GroupedCommand
+from hdpea.cli.parameters import PATH, GroupedCommand
 
 if TYPE_CHECKING:
     from hdpea.dataset.loading import Dataset
@@ -22,7 +22,7 @@ Examples:
 
 
 @click.command(cls=GroupedCommand, epilog=EPILOG, no_args_is_help=True, short_help="Describe a dataset.")
-@click.argument("source", metavar="IN", type=click.Path(path_type=Path))
+@click.argument("source", metavar="IN", type=PATH)
 def command(source: Path) -> None:
     """Describe the dataset, or the sample, IN.
 

@@ -9,7 +9,7 @@ from typing import Any
 
 import click
 
-from hdpea.cli.parameters import GroupedCommand, quiet_option, setting_options
+from hdpea.cli.parameters import PATH, GroupedCommand, quiet_option, setting_options
 from hdpea.dataset.options import DatasetOptions
 
 EPILOG = """\b
@@ -21,8 +21,8 @@ Examples:
 
 
 @click.command(cls=GroupedCommand, epilog=EPILOG, no_args_is_help=True, short_help="Scan a mesh as a sensor would.")
-@click.argument("mesh", type=click.Path(path_type=Path))
-@click.argument("output", metavar="OUT", type=click.Path(path_type=Path))
+@click.argument("mesh", type=PATH)
+@click.argument("output", metavar="OUT", type=PATH)
 @quiet_option
 @setting_options("scanning", "ground_truth", also=["points", "seed", "estimate"], owner=DatasetOptions)
 def command(mesh: Path, output: Path, quiet: bool, **values: Any) -> None:
@@ -37,13 +37,13 @@ def command(mesh: Path, output: Path, quiet: bool, **values: Any) -> None:
     """
     from hdpea.dataset.surface_file import read_surface
     from hdpea.options.settings import filled
-    from hdpea.runtime.outputs import check_not_input, check_output
+    from hdpea.runtime.outputs import check_distinct, check_output
     from hdpea.runtime.progress import shown, tell
     from hdpea.writing.meshes import POINT_FORMATS
 
     options = filled(DatasetOptions, values)
     check_output(output, POINT_FORMATS)
-    check_not_input(output, str(mesh))
+    check_distinct([mesh], [output])
     with shown(quiet) as progress:
         tell(progress, "reading", 0.0)
         vertices, faces = read_surface(mesh)

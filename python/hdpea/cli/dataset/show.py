@@ -7,7 +7,7 @@ from pathlib import Path
 
 import click
 
-from hdpea.cli.parameters import GroupedCommand
+from hdpea.cli.parameters import PATH, GroupedCommand
 
 EPILOG = """\b
 Examples:
@@ -16,8 +16,8 @@ Examples:
 
 
 @click.command(cls=GroupedCommand, epilog=EPILOG, no_args_is_help=True, short_help="Draw a sample.")
-@click.argument("source", metavar="IN", type=click.Path(path_type=Path))
-@click.argument("output", metavar="OUT", type=click.Path(path_type=Path))
+@click.argument("source", metavar="IN", type=PATH)
+@click.argument("output", metavar="OUT", type=PATH)
 def command(source: Path, output: Path) -> None:
     """Draw the sample IN three times in the PNG file OUT; needs no screen.
 
@@ -28,8 +28,9 @@ def command(source: Path, output: Path) -> None:
     from hdpea.dataset.sample_file import read_sample
     from hdpea.dataset.sample_picture import draw_sample
     from hdpea.pictures.picture import PICTURE_FORMATS, check_drawing
-    from hdpea.runtime.outputs import check_output
+    from hdpea.runtime.outputs import check_distinct, check_output
 
     check_output(output, PICTURE_FORMATS)
+    check_distinct([source], [output])
     check_drawing()
     draw_sample(output, read_sample(source))
