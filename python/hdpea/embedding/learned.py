@@ -31,6 +31,8 @@ def embed_learned(
 
     Raises
     ------
+    CannotReconstruct
+        If parts of the cloud are too far apart for the network.
     UnreadableInput
         If the weights cannot be read.
     Interrupted

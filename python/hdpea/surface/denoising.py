@@ -50,7 +50,7 @@ def denoised(
     points, normals = surface.points_in_unit, surface.normals
     with core_errors_translated():
         # Of all sheets: noise lifts neighbours off their own, and the weights discount the far side of walls.
-        nearest = _core.nearest_neighbors(surface.points_in_unit, count)
+        nearest = _core.nearest_neighbors(surface.points_in_unit, min(count, len(points)))
         for number in range(ROUNDS):
             tell(progress, "denoising", number / ROUNDS)
             moved = _core.moving_least_squares(points, normals, surface.points_in_unit, nearest)

@@ -13,7 +13,7 @@ from helpers.networks import TINY, network_of
 from hdpea import _core
 from hdpea.embedding.embedded import Embedded
 from hdpea.embedding.learned import embed_learned
-from hdpea.errors import UsageError
+from hdpea.errors import CannotReconstruct, UsageError
 from hdpea.geometry.interpolation import Interpolation
 from hdpea.geometry.unit_frame import UnitFrame
 from hdpea.network.weights import write_weights
@@ -51,6 +51,13 @@ def test_a_redundant_cloud_is_embedded_as_a_thinned_one_would_be() -> None:
     thin = embedded(points[every_fourth], normals[every_fourth], 700).coordinates[:, 3:]
     spread = np.linalg.norm(thin - thin.mean(axis=0), axis=1).mean()
     assert np.linalg.norm(dense - thin, axis=1).mean() < 0.2 * spread
+
+
+def test_parts_too_far_apart_are_refused(weights: str) -> None:
+    points, normals = clouds.sphere(400)
+    far = 1e6 * np.arange(400)[:, None].clip(199, 200)
+    with pytest.raises(CannotReconstruct, match="too far apart for the learned embedding"):
+        embedded(points + far, normals, 50, weights)
 
 
 def test_psi_is_carried_along_its_gradient() -> None:
