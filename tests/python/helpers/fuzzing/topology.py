@@ -59,3 +59,14 @@ def boundary_loops(faces: Faces) -> int:
             border[a].append(b)
             border[b].append(a)
     return _pieces(border)
+
+
+def is_manifold(faces: Faces) -> bool:
+    """Return whether faces (f, 3) of any vertices are edge- and vertex-manifold and consistently oriented."""
+    used, faces = np.unique(faces, return_inverse=True)
+    faces = faces.reshape(-1, 3)
+    half_edges = np.vstack([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]])
+    no_loop = (half_edges[:, 0] != half_edges[:, 1]).all()
+    each_once = len(np.unique(half_edges, axis=0)) == len(half_edges)
+    distinct = len(np.unique(np.sort(faces, axis=1), axis=0)) == len(faces)
+    return bool(no_loop and each_once and distinct and (fans(len(used), faces) == 1).all())
