@@ -29,8 +29,6 @@ def embed_learned(surface: Surface, vertices: int, options: EmbeddingOptions, pr
 
     Raises
     ------
-    CannotReconstruct
-        If parts of the cloud are too far apart for the network.
     UnreadableInput
         If the weights cannot be read.
     Interrupted

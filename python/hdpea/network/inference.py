@@ -56,8 +56,6 @@ def predict_psi(
 
     Raises
     ------
-    CannotReconstruct
-        If parts of the cloud, or of a patch, are so far apart that voxels cannot be told by their numbers.
     Interrupted
         If `progress` cancels.
     """

@@ -6,7 +6,6 @@ from __future__ import annotations
 import torch
 from torch import Tensor, nn
 
-from hdpea.errors import CannotReconstruct
 from hdpea.geometry.metric import ScaledMetric
 from hdpea.network.averaging import Neighborhoods, averaged
 from hdpea.network.clouds import Clouds
@@ -111,11 +110,6 @@ class PointTransformer(nn.Module):
         """Return the finest voxels, that of each point (n,), and the features of points (n, c)."""
         places = clouds.points / self.options.voxel + ORIGIN  # (n, 3)
         cells = places.floor()
-        if not cells.abs().max() < MIDDLE:
-            raise CannotReconstruct(
-                "Parts of the cloud are too far apart for the learned embedding.",
-                "Use the direct embedding, or reconstruct each part by itself.",
-            )
         voxels, index = Voxels.holding(cells.long() + MIDDLE, clouds.batch)
         features = [places - cells - 0.5, clouds.normals]
         if self.options.shape:

@@ -47,6 +47,10 @@ class _World:
             return self._neighbors()
         if name in OF_POINTS | OF_VERTICES and given.shape[1] == 3:
             return self.points
+        return self._numbers(name, given)
+
+    def _numbers(self, name: str, given: NDArray[Any]) -> NDArray[Any]:
+        random, count = self.random, self.count
         if given.dtype == np.int32:
             return random.integers(0, 4, count).astype(np.int32)
         if name in {"normals", "direction1"}:
@@ -118,7 +122,7 @@ BREAKS: list[Callable[[Random, NDArray[Any]], Any]] = [
 def _with(array: NDArray[Any], random: Random, values: list[float]) -> NDArray[Any]:
     spoilt_array = array.copy()
     value = values[random.integers(0, len(values))]
-    if array.size and (array.dtype.kind == "f" or np.isfinite(value) and abs(value) <= np.iinfo(array.dtype).max):
+    if array.size and (array.dtype.kind == "f" or (np.isfinite(value) and abs(value) <= np.iinfo(array.dtype).max)):
         spoilt_array.flat[random.integers(0, array.size)] = value
     return spoilt_array
 
