@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How true the estimated curvature tensors are, by every method; prints the tables of docs/curvature.md.
+"""Accuracy of the estimated curvature tensors, by every method; prints the tables of docs/curvature.md.
 
     python benchmarks/curvature_table.py [--surfaces cylinder,torus] [--noise 0,0.1%] [--meshes bull,trex]
         [--weights best.safetensors]
@@ -8,14 +8,14 @@ Points are drawn evenly by area of analytic surfaces, and of the meshes of a fol
 `hdpea.dataset` fits to the normals of the mesh itself. Methods get the points alone, with Gaussian noise in shares of
 the diagonal of the bounding box. Every embedding that hdpea has is a row, and so are jets.
 
-A mesh has facets, often larger than the length that curvature is measured at; there its curvature depends on where
-exactly one measures. The row `mesh` shows how much: it fits, at the same length, the mesh's own normals at the points
+A mesh has facets, often larger than the radius in which curvature is fitted; there its curvature depends on where
+exactly it is measured. The row `mesh` shows how much: it fits, at the same length, the mesh's own normals at the points
 themselves, instead of at vertices between which the truth is interpolated. Meshes have rows for all points, and for
-those that are sure, where these two fits of the mesh agree on the direction to 10 degrees.
+those that are certain, where these two fits of the mesh agree on the direction to 10 degrees.
 
 Directions are compared where the true stretching ratio is over 1.5 and the method calls them determined. The true
 ratio is that of the metric, sqrt(clamp(c |k1|) / clamp(c |k2|)); inside the range of the metric nothing is clamped.
-Times are of the processor, all threads together, since a busy machine makes any wall clock wrong.
+Times are processor times of all threads together, which depend less on the load of the machine.
 """
 
 from __future__ import annotations
@@ -34,13 +34,13 @@ from val_table import POINTS, ROOT, read_mesh
 from hdpea import CurvatureOptions, CurvatureTensors, _core, estimate_curvature
 from hdpea.curvature.from_embedding import LEAST_RATIO
 from hdpea.curvature.options import EstimationOptions
-from hdpea.curvature.tensors import metric_tensors
 from hdpea.dataset.ground_truth import embed_mesh
 from hdpea.dataset.options import GroundTruthOptions
 from hdpea.embedding import EMBEDDERS
 from hdpea.errors import HdpeaError
 from hdpea.geometry.metric import Metric
 from hdpea.geometry.sampling import sample_surface
+from hdpea.geometry.tensors import metric_tensors
 from hdpea.geometry.triangles import mesh_area
 from hdpea.options import EmbeddingOptions, NormalOptions
 from hdpea.surface.surface import NEIGHBORS

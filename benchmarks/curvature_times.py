@@ -3,9 +3,9 @@
 
     python benchmarks/curvature_times.py [--points 40000,1000000] [--shape knot] [--methods embedding,jet]
 
-The command runs as a user runs it, in a process of its own: the times hold the start of Python and the reading and
-writing of files. Processor seconds are those of all threads together; elapsed ones mean something on an idle machine
-only.
+The command runs as a user runs it, in a process of its own: the times include the start of Python and the reading and
+writing of files. Processor seconds are those of all threads together; elapsed ones are meaningful only on an idle
+machine.
 """
 
 from __future__ import annotations

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How far the scores of `hdpea evaluate` are from those of an independent implementation, the baselines' `metrics.py`.
+"""Agreement of the scores of `hdpea evaluate` with an independent implementation, the baselines' `metrics.py`.
 
     python benchmarks/evaluation_agreement.py [MESHES] [BASELINES]
 
@@ -7,8 +7,8 @@ Each mesh, decimated, is measured against itself by both, with several seeds. A 
 seeds differ by no more than four times the spread between seeds, or by 2 %. Prints Markdown; exits with 1 if a
 score disagrees. Needs the `bench` dependency group and fast-simplification.
 
-What is not compared: HDs, the largest exact distance, which `metrics.py` takes over samples alone and we over the
-vertices as well, so that ours is never much smaller.
+HDs, the largest exact distance, is not compared: `metrics.py` takes it over samples only, hdpea over the vertices as
+well.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ import fast_simplification
 import numpy as np
 from val_table import ROOT, load_metrics
 
-from hdpea.evaluation.evaluation import evaluate
+from hdpea.evaluation import evaluate
 from hdpea.evaluation.normalization import DIAGONAL, LONGEST_SIDE
 from hdpea.evaluation.options import EvaluationOptions
 from hdpea.evaluation.scores import Evaluation
@@ -38,7 +38,7 @@ SPREADS, SHARE = 4.0, 0.02
 
 
 def decimated(mesh: TriangleMesh) -> TriangleMesh:
-    """Return a mesh of fewer faces, whose vertices all have one."""
+    """Return a mesh of fewer faces, without unused vertices."""
     vertices, faces = fast_simplification.simplify(mesh[0].astype(np.float32), mesh[1].astype(np.int32), REDUCTION)
     used, corners = np.unique(faces, return_inverse=True)
     return vertices[used].astype(np.float64), corners.reshape(-1, 3).astype(np.int64)

@@ -15,14 +15,14 @@ from collections import Counter
 from collections.abc import Iterator
 
 import click
-from helpers.fuzzing import clouds, files
+from helpers.fuzzing import clouds, core, files
 
 from hdpea.runtime.processes import run_isolated
 
 SECONDS, GIGABYTES = 120, 6
 """Limits of one case."""
 
-KINDS = {"clouds": clouds.run, "files": files.run}
+KINDS = {"clouds": clouds.run, "files": files.run, "core": core.run}
 
 Case = tuple[str, int]
 
@@ -37,15 +37,16 @@ def run_case(case: Case) -> str:
 @click.command()
 @click.option("--clouds", "cloud_count", default=10_000, show_default=True, help="random clouds")
 @click.option("--files", "file_count", default=5_000, show_default=True, help="damaged files")
+@click.option("--core", "core_count", default=4_000, show_default=True, help="calls of the core")
 @click.option("--seed", default=0, show_default=True, help="of the first case; the others count up from it")
 @click.option("--jobs", default=2, show_default=True, help="processes")
 @click.option("--one", type=click.Choice(list(KINDS)), help="run the one case of this kind and seed, here")
-def main(*, cloud_count: int, file_count: int, seed: int, jobs: int, one: str | None) -> None:
+def main(*, cloud_count: int, file_count: int, core_count: int, seed: int, jobs: int, one: str | None) -> None:
     """Fuzz hdpea."""
     if one:
         print(run_case((one, seed)))
         return
-    counts = {"clouds": cloud_count, "files": file_count}
+    counts = {"clouds": cloud_count, "files": file_count, "core": core_count}
     cases = [(kind, seed + each) for kind, count in counts.items() for each in range(count)]
     outcomes, failures = Counter[tuple[str, str]](), list[tuple[Case, str]]()
     for done, outcome in enumerate(run_isolated(run_case, cases, jobs, SECONDS), start=1):

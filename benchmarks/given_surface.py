@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The points that a suite gives to a program."""
+"""The cloud that a suite gives to a program, as a surface."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from hdpea.surface.surface import Surface
 
 
 def given_surface(points: Path) -> Surface:
-    """Read points that bring their normals; a program of a benchmark takes these as they are."""
+    """Read points with normals, which are taken as they are."""
     cloud = read_points(points)
     if cloud.normals is None:
         raise click.UsageError("The points have no normals.")

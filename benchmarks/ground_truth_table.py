@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What each option of the ground truth is worth to a reconstruction from the true embedding.
+"""Effect of each option of the ground truth on reconstructions from the true embedding.
 
     python benchmarks/ground_truth_table.py [--meshes bull,trex] [--save DIR]
 
-Meshes are sampled and scored as `val_table.py` does, and reconstructed by the oracle. Options change one at a time,
-around the defaults of `GroundTruthOptions`. Prints Markdown; two minutes a mesh, so it can be done in pieces. Needs the
-`bench` dependency group (`make bench-setup`).
+Meshes are sampled and scored as `val_table.py` does, and reconstructed by the oracle. Options change one at a time
+from the defaults of `GroundTruthOptions`. Prints Markdown. It takes two minutes per mesh, and can be interrupted.
+Needs the `bench` dependency group (`make bench-setup`).
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ from hdpea.surface.normals import oriented_surface
 from hdpea.surface.surface import Surface
 
 MESHES = "adis16480,anchor,boot,bull,engine,goblet_top,lattice_lamp,lewis_queen,trex,ycb_scissors"
-"""The five that the oracle is worst on, and five others."""
+"""The five meshes with the worst results of the oracle, and five others."""
 
 VALUES = {
     "metric_scale": (20.0, 80.0),
@@ -49,7 +49,7 @@ Scores = tuple[float, float, float]
 
 
 def variants() -> dict[str, GroundTruthOptions]:
-    """Return the options to compare by what is not the default in them."""
+    """Return the options to compare, by a label of what differs from the defaults."""
     changed = [(name, value) for name, values in VALUES.items() for value in values]
     return {"defaults": DEFAULTS} | {
         f"{name} {value:g} ({getattr(DEFAULTS, name):g})": replace(DEFAULTS, **{name: value}) for name, value in changed
@@ -92,9 +92,9 @@ def run_mesh(path: Path, baselines: Path, vertices: int) -> dict[str, Scores]:
 @click.option("--meshes", default=MESHES, show_default=True, help="these, by name")
 @click.option("--vertices", default=5180, show_default=True)
 @click.option("--jobs", default=2, show_default=True, help="meshes at a time")
-@click.option("--save", type=click.Path(path_type=Path), help="folder that keeps scores; what is there is done")
+@click.option("--save", type=click.Path(path_type=Path), help="folder of stored scores, which are not computed again")
 def main(*, folder: Path, baselines: Path, meshes: str, vertices: int, jobs: int, save: Path | None) -> None:
-    """Reconstruct meshes of FOLDER from true embeddings of all sorts; score them by the metrics in BASELINES."""
+    """Reconstruct meshes of FOLDER from true embeddings by these options; score them by the metrics in BASELINES."""
     paths = meshes_of(folder, meshes)
     with ProcessPoolExecutor(jobs, mp_context=multiprocessing.get_context("spawn")) as pool:
         futures = [pool.submit(kept, save, path.stem, partial(run_mesh, path, baselines, vertices)) for path in paths]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What was measured is kept, mesh by mesh: a long table can be made in pieces, and goes on where it was stopped."""
+"""Measurements stored mesh by mesh, so that a long table can be made in several runs."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ Kept = TypeVar("Kept")
 
 
 def kept(folder: Path | None, name: str, measure: Callable[[], Kept]) -> Kept:
-    """Return what `folder` keeps under this name, or else measure it and keep it, as JSON."""
+    """Return the value stored in `folder` under this name, or measure it and store it, as JSON."""
     if folder is None:
         return measure()
     folder.mkdir(parents=True, exist_ok=True)

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Reconstruct from what a network says, without the solver after it.
+"""Reconstruct from the prediction of a network, without the solver after it.
 
     python benchmarks/network_alone.py POINTS MESH VERTICES --weights FILE
 
-So losses.toml compares networks.
+losses.toml uses it to compare networks.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ from hdpea.writing.meshes import write_mesh
 @click.argument("vertices", type=int)
 @click.option("--weights", type=click.Path(exists=True, path_type=Path), required=True)
 def main(*, points: Path, mesh: Path, vertices: int, weights: Path) -> None:
-    """Reconstruct POINTS, which bring their normals."""
+    """Reconstruct POINTS, which have normals."""
     surface = given_surface(points)
     in_unit = surface.points_in_unit
     spacing = float(np.sqrt(area_shown(in_unit, surface.neighbors) / vertices))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The oracle: the true embedding of a mesh in place of one found from the points. No method can hope for more."""
+"""The oracle: the true embedding of a mesh in place of one estimated from the points, as an upper bound."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ ORACLE = "oracle"
 def oracle_embedder(
     vertices: NDArray[np.float64], faces: NDArray[np.int64], options: GroundTruthOptions | None = None
 ) -> Embedder:
-    """Return the embedder of samples of this mesh that looks up the truth."""
+    """Return an embedder for samples of this mesh that looks up the truth."""
     truth = embed_mesh(vertices, faces, options)
 
     def embed(surface: Surface, _: int, __: EmbeddingOptions, ___: Callable[[float], bool]) -> Embedded:

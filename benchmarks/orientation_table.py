@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How well normals are estimated and oriented, by every way of orienting them.
+"""Accuracy of estimated normals and of their orientation, by every method of orientation.
 
     python benchmarks/orientation_table.py [--meshes bull,trex] [--noise 0.005] [--save DIR]
     python benchmarks/orientation_table.py --only-clouds --cloud FILE --picture DIR
 
 Each mesh of a folder is sampled as `val_table.py` does, and scanned by a simulated sensor; normals are estimated from
-the points, oriented, and compared with the true ones. Also times every way on clouds as they come from scanners, whose
-true normals nobody knows: look at the pictures.
+the points, oriented, and compared with the true ones. Also times every method on raw scans, whose true
+normals are unknown: look at the pictures.
 Prints Markdown. Needs the `bench` dependency group and embreex (`make bench-setup` has both).
 """
 
@@ -40,17 +40,17 @@ from hdpea.surface.normals import oriented_surface
 Array = NDArray[np.float64]
 
 VIEWS = 6
-"""Places from which a mesh is scanned: few, and all above it, so that there are holes."""
+"""Views from which a mesh is scanned: few, and all from above, so that there are holes."""
 
-WAYS = ("auto", "wnnc", "mst", "viewpoint")
+METHODS = ("auto", "wnnc", "mst", "viewpoint")
 
 Score = tuple[float, float, float]
-"""What came of one cloud: percent of the normals within 90 degrees of the truth, mean angle to it, seconds."""
+"""Score of one cloud: percent of the normals within 90 degrees of the truth, mean angle to it, seconds."""
 
 
 @dataclass(frozen=True)
 class Cloud:
-    """Points and their true normals, and from where each was seen, if anybody looked."""
+    """Points and their true normals, and the position of the sensor of each, if there was one."""
 
     points: Array
     normals: Array
@@ -65,7 +65,7 @@ def noisy(cloud: Cloud, noise: float, seed: int) -> Cloud:
 
 
 def scanned(path: Path, noise: float, seed: int) -> Cloud:
-    """Return what a sensor sees of a mesh on a turntable; what it does not see is a hole."""
+    """Scan a mesh on a turntable; parts that the sensor does not see are holes."""
     vertices, faces = read_surface(path)
     frame = UnitFrame.around(vertices)
     options = ScanOptions(points=POINTS, sensor="turntable", views=VIEWS, noise=noise, seed=seed)
@@ -73,23 +73,23 @@ def scanned(path: Path, noise: float, seed: int) -> Cloud:
     return Cloud(frame.to_world(scan.points), scan.normals, frame.to_world(scan.sensors))
 
 
-def score(cloud: Cloud, way: str) -> Score:
+def score(cloud: Cloud, method: str) -> Score:
     """Estimate and orient the normals of a cloud, and compare them with the truth."""
     start = time.perf_counter()
-    surface = oriented_surface(cloud.points, None, NormalOptions(orient=way), sensors_in_world=cloud.sensors).surface
+    surface = oriented_surface(cloud.points, None, NormalOptions(orient=method), sensors_in_world=cloud.sensors).surface
     seconds = time.perf_counter() - start
     cosines = np.einsum("nc,nc->n", surface.normals, cloud.normals)
     degrees = np.degrees(np.arccos(np.clip(cosines, -1, 1)))
     return 100 * float((cosines > 0).mean()), float(degrees.mean()), seconds
 
 
-def ways_of(cloud: Cloud) -> tuple[str, ...]:
-    """Return the ways that a cloud can be oriented: towards the sensors only where there were any."""
-    return tuple(way for way in WAYS if way != "viewpoint" or cloud.sensors is not None)
+def methods_of(cloud: Cloud) -> tuple[str, ...]:
+    """Return the methods by which a cloud can be oriented: towards the sensors only if there were any."""
+    return tuple(method for method in METHODS if method != "viewpoint" or cloud.sensors is not None)
 
 
 def run_mesh(path: Path, metrics: ModuleType, noise: float) -> dict[str, dict[str, Score]]:
-    """Return the scores of every way on every kind of cloud made of a mesh."""
+    """Return the scores of every method on every kind of cloud made from a mesh."""
     sampled = Sampled.of(path, metrics)
     clean = Cloud(sampled.points, sampled.normals)
     clouds = {
@@ -99,11 +99,11 @@ def run_mesh(path: Path, metrics: ModuleType, noise: float) -> dict[str, dict[st
         f"the same, {noise:.1%} noise": scanned(path, noise, sampled.seed),
     }
     click.echo(path.stem, err=True)
-    return {kind: {way: score(cloud, way) for way in ways_of(cloud)} for kind, cloud in clouds.items()}
+    return {kind: {method: score(cloud, method) for method in methods_of(cloud)} for kind, cloud in clouds.items()}
 
 
 def print_meshes(paths: list[Path], baselines: Path, noise: float, save: Path | None) -> None:
-    """Print how well each way does on every kind of cloud made of the meshes."""
+    """Print the scores of each method on every kind of cloud made from the meshes."""
     metrics = load_metrics(baselines)
     by_mesh = {
         path.stem: kept(save, f"{path.stem}-{noise:g}", partial(run_mesh, path, metrics, noise)) for path in paths
@@ -111,26 +111,28 @@ def print_meshes(paths: list[Path], baselines: Path, noise: float, save: Path | 
     click.echo("| cloud | --orient | within 90 degrees, % | worst mesh, % | mean error, degrees | seconds |")
     click.echo("|---|---|---|---|---|---|")
     for kind, of_kind in by_mesh[paths[0].stem].items():
-        for way in of_kind:
-            scores = {name: kinds[kind][way] for name, kinds in by_mesh.items()}
+        for method in of_kind:
+            scores = {name: kinds[kind][method] for name, kinds in by_mesh.items()}
             worst, (least, *_) = min(scores.items(), key=lambda item: item[1][0])
             right, degrees, seconds = np.mean(list(scores.values()), axis=0)
-            row = [kind, way, f"{right:.2f}", f"{least:.2f} ({worst})", f"{degrees:.1f}", f"{seconds:.1f}"]
+            row = [kind, method, f"{right:.2f}", f"{least:.2f} ({worst})", f"{degrees:.1f}", f"{seconds:.1f}"]
             click.echo(f"| {' | '.join(row)} |")
 
 
 def print_clouds(paths: list[Path], pictures: Path | None) -> None:
-    """Print how long each way takes on raw clouds; a viewpoint far above them stands for the sensor."""
-    click.echo("\n| cloud | points | " + " | ".join(f"{way}, s" for way in WAYS) + " |")
-    click.echo("|---" * (2 + len(WAYS)) + "|")
+    """Print how long each method takes on raw clouds; a viewpoint far above them represents the sensor."""
+    click.echo("\n| cloud | points | " + " | ".join(f"{method}, s" for method in METHODS) + " |")
+    click.echo("|---" * (2 + len(METHODS)) + "|")
     for path in paths:
         points = cleaned(read_points(path)).points
         above = Position(*(points.max(axis=0) + 10 * np.ptp(points, axis=0)).tolist())
         times, normals = [], {}
-        for way in WAYS:
-            options = NormalOptions(normals="estimate", orient=way, viewpoint=above if way == "viewpoint" else None)
+        for method in METHODS:
+            options = NormalOptions(
+                normals="estimate", orient=method, viewpoint=above if method == "viewpoint" else None
+            )
             start = time.perf_counter()
-            normals[way] = oriented_surface(points, None, options).surface.normals
+            normals[method] = oriented_surface(points, None, options).surface.normals
             times.append(f"{time.perf_counter() - start:.1f}")
         click.echo(f"| {path.stem} | {len(points):,} | {' | '.join(times)} |")
         if pictures is not None:
@@ -138,20 +140,20 @@ def print_clouds(paths: list[Path], pictures: Path | None) -> None:
 
 
 def draw_sides(path: Path, points: Array, normals: dict[str, Array]) -> None:
-    """Draw a panel for each way: points that face the eye in one colour, those that turn their back in another."""
+    """Draw a panel for each method: points facing the viewer in one colour, those facing away in another."""
     view_from_world = choose_view_of_points(points, normals["auto"])
     in_view = UnitFrame.around(points).to_unit(points) @ view_from_world.T
     # Spheres, which hide what is behind them.
     size = point_size(len(points) // 2, PANEL)
     window = [PANEL[0] * len(normals), PANEL[1]]
     with drawn_to(path, shape=(1, len(normals)), window_size=window) as (_, plotter):
-        for column, (way, of_way) in enumerate(normals.items()):
+        for column, (method, of_method) in enumerate(normals.items()):
             plotter.subplot(0, column)
-            facing = (of_way @ view_from_world.T)[:, 2] > 0
+            facing = (of_method @ view_from_world.T)[:, 2] > 0
             for side, color in ((facing, FRONT), (~facing, DOTS)):
                 if side.any():
                     plotter.add_points(in_view[side], color=color, point_size=size, render_points_as_spheres=True)
-            plotter.add_text(way, font_size=12, color="black")
+            plotter.add_text(method, font_size=12, color="black")
             look_at(plotter, in_view, PANEL)
 
 
@@ -159,11 +161,13 @@ def draw_sides(path: Path, points: Array, normals: dict[str, Array]) -> None:
 @click.argument("folder", type=click.Path(exists=True, path_type=Path), default=ROOT / "../shared/data/meshes/val")
 @click.argument("baselines", type=click.Path(exists=True, path_type=Path), default=ROOT / "../shared/baselines")
 @click.option("--meshes", help="only these, by name: bull,trex")
-@click.option("--noise", default=0.003, show_default=True, help="in bounding-box diagonals; in scans of the range")
+@click.option(
+    "--noise", default=0.003, show_default=True, help="in bounding-box diagonals; for scans, noise of the range"
+)
 @click.option("--cloud", "clouds", multiple=True, type=click.Path(exists=True, path_type=Path), help="a raw cloud")
 @click.option("--picture", "pictures", type=click.Path(path_type=Path), help="folder for a picture of each raw cloud")
 @click.option("--only-clouds", is_flag=True, help="leave out the meshes")
-@click.option("--save", type=click.Path(path_type=Path), help="folder that keeps scores; what is there is done")
+@click.option("--save", type=click.Path(path_type=Path), help="folder of stored scores, which are not computed again")
 def main(
     *,
     folder: Path,

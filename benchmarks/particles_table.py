@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Small meshes: simplified from as many particles as the points can show, or of as many particles as vertices.
+"""Small meshes: simplified from as many particles as the points support, or from as many particles as vertices.
 
     python benchmarks/particles_table.py FOLDER BASELINES [--meshes bull,trex] [--vertices 500,1500,4000]
 
@@ -27,7 +27,7 @@ COLUMNS = {"CDs": 3, "HDs": 3, "G": 3, "watertight": 2}
 @click.option("--meshes", help="only these, by name: bull,trex")
 @click.option("--vertices", default="500,1500,4000", show_default=True)
 def main(*, folder: Path, baselines: Path, meshes: str | None, vertices: str) -> None:
-    """Reconstruct the meshes of FOLDER with so many vertices in both ways."""
+    """Reconstruct the meshes of FOLDER with so many vertices by both methods."""
     metrics = load_metrics(baselines)
     scores: dict[tuple[str, ...], list[list[float]]] = {}
     for path in meshes_of(folder, meshes):

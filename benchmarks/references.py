@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Embeddings that a table needs beside those of the product: what the learned one is to be measured against."""
+"""Embeddings to compare with those of hdpea."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ NORMAL_FACTOR = 0.05
 
 
 def embed_isotropically(surface: Surface, _: int, __: EmbeddingOptions, ___: Callable[[float], bool]) -> Embedded:
-    """Embed in R^3 as it is: psi is 0."""
+    """Embed without psi: the metric is Euclidean."""
     return Embedded(np.pad(surface.points_in_unit, ((0, 0), (0, 5))))
 
 

@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What is taken for noise: roughness of points of true surfaces, clean and with noise.
+"""What counts as noise: roughness of points of true surfaces, with and without noise.
 
     python benchmarks/roughness_table.py FOLDER
 
-The meshes of FOLDER are sampled (40,000 points); noise is in shares of the diagonal. Prints Markdown: how rough the
-points are, in their spacings, on how many meshes that is spread like noise, and on how many it asks for denoising where
-normals are given.
+The meshes of FOLDER are sampled (40,000 points); noise is in shares of the diagonal. Prints Markdown: the
+roughness of the points in their spacings, on how many meshes it is distributed like noise, and on how many the points
+would be denoised if normals are given.
 """
 
 from __future__ import annotations

@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Seams: how well the patches of a large cloud (PMEI) join, beside the same cloud embedded at once.
+"""Seams between the patches of a large cloud (PMEI), compared with the same cloud embedded as a whole.
 
     python benchmarks/seam_table.py MESH WEIGHTS [--points 250000]
 
 Distances in R^8 to the 12 nearest of the same sheet are compared with the true ones, those of the true embedding of
-MESH at the scale of the mesh to come: across the borders of patches, and inside of them. The seam is the error across
-over the error inside; 1 if nothing tells where patches meet. Prints Markdown.
+MESH at the scale of the mesh to come: across the borders of patches, and inside of them. The seam is the ratio of
+the errors across and inside: 1 if seams cannot be detected. Prints Markdown.
 """
 
 from __future__ import annotations
@@ -41,7 +41,7 @@ def distances(surface: Surface, psi: Array) -> Array:
 
 
 def across_borders(surface: Surface) -> NDArray[np.bool_]:
-    """Return which pairs (n, 12) of neighbours some patch tears apart."""
+    """Return which pairs (n, 12) of neighbours are not in the same patches."""
     order = canonical_order(surface.points_in_unit)
     _, patches = cut_patches(surface.points_in_unit[order], PATCH_POINTS)
     # Points of the same patches have the same sum of the patches' random numbers.
@@ -64,7 +64,7 @@ def relative_errors(found: Array, true: Array, across: NDArray[np.bool_]) -> tup
 @click.argument("weights", type=click.Path(exists=True, path_type=Path))
 @click.option("--points", default=250_000, show_default=True)
 def main(*, mesh: Path, weights: Path, points: int) -> None:
-    """Compare the embedding of points of MESH in patches with that at once, and both with the truth."""
+    """Compare embeddings of points of MESH, in patches and as a whole, with the truth."""
     vertices, faces = read_mesh(mesh)
     truth = embed_mesh(vertices, faces, GroundTruthOptions(vertices=points // POINTS_PER_VERTEX))
     samples = sample_surface(truth.frame.to_unit(vertices), faces, points)
@@ -77,7 +77,7 @@ def main(*, mesh: Path, weights: Path, points: int) -> None:
     click.echo(f"{mesh.stem}, {points:,} points, {across.mean():.1%} of the pairs across borders\n")
     click.echo("| embedded | error across | error inside | seam | seconds | peak memory, MB |")
     click.echo("|---|---|---|---|---|---|")
-    # Memory never falls, so the thriftier way goes first.
+    # The peak memory never falls, so the method that needs less goes first.
     for name, whole_points in (("in patches", 1), ("at once", points)):
         start = time.perf_counter()
         psi = predict_psi(network, surface.points_in_unit, surface.normals, surface.neighbors, spacing, whole_points)

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the network saves the solver: rounds of it from the network's psi, and from the normals alone.
+"""Rounds of the solver that the network saves: starting from the network's psi, and from the normals alone.
 
     python benchmarks/settling_table.py FOLDER BASELINES [--meshes bull,trex] [--weights FILE]
 
-The meshes of FOLDER are sampled (40,000 points); seconds are the embedding's alone. Scores by the `metrics.py` of
-BASELINES. Prints Markdown. Needs the `bench` dependency group (`make bench-setup`).
+The meshes of FOLDER are sampled (40,000 points); seconds are those of the embedding alone. Scores by the `metrics.py`
+of BASELINES. Prints Markdown. Needs the `bench` dependency group (`make bench-setup`).
 """
 
 from __future__ import annotations
@@ -29,11 +29,11 @@ from hdpea.training.validation import mesh_of_embedding
 COLUMNS = {"T3": 3, "G": 3, "CDs": 3, "HDs": 3, "seconds": 2}
 ROUNDS = (0, 1, 2, 4, 8, 25)
 NORMAL_FACTOR = 0.2
-"""Factor on the normals, in diagonals, where the direct embedding begins."""
+"""Factor on the normals, in diagonals, where the direct embedding starts."""
 
 
 def from_normals(surface: Surface, spacing: float, metric: ScaledMetric, rounds: int) -> NDArray[np.float64]:
-    """Return psi (n, 5) after so many rounds from where the direct embedding begins."""
+    """Return psi (n, 5) after so many rounds from where the direct embedding starts."""
     start = np.pad(NORMAL_FACTOR / spacing * surface.normals, ((0, 0), (0, 2)))
     points = surface.points_in_unit / spacing
     return spacing * settled(points, surface.normals, surface.neighbors, start, metric, rounds)

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Meshes of one thing in one picture, such as a suite's of one model.
+"""Several meshes of the same object in one picture, such as those of a suite for one model.
 
     python benchmarks/side_by_side.py build/results/tangents/meshes/clean/adis16480/*.ply docs/tangents.png
 
-The first one says from where all are seen.
+The first mesh determines the viewpoint.
 """
 
 from __future__ import annotations
@@ -24,11 +24,11 @@ PANEL = (320, 320)
 """Width and height of each, in pixels."""
 
 COLORS = 64
-"""Different ones in the picture: it is to be small."""
+"""Colours in the picture, which keep it small."""
 
 
 def draw_side_by_side(path: Path, meshes: Sequence[tuple[NDArray[np.float64], NDArray[np.int64]]]) -> None:
-    """Draw meshes (vertices, faces) from left to right, all seen as the first one is."""
+    """Draw meshes (vertices, faces) from left to right, all from the viewpoint chosen for the first."""
     camera = Camera.before(*meshes[0])
     row = Image.new("RGB", (PANEL[0] * len(meshes), PANEL[1]))
     with TemporaryDirectory() as folder:
@@ -45,7 +45,7 @@ def draw_side_by_side(path: Path, meshes: Sequence[tuple[NDArray[np.float64], ND
 @click.argument("meshes", nargs=-1, required=True, type=click.Path(exists=True, path_type=Path))
 @click.argument("picture", type=click.Path(path_type=Path))
 def main(*, meshes: tuple[Path, ...], picture: Path) -> None:
-    """Draw MESHES from left to right in PICTURE, all seen as the first one is."""
+    """Draw MESHES from left to right in PICTURE, all from the viewpoint chosen for the first."""
     draw_side_by_side(picture, [read_triangle_mesh(each) for each in meshes])
 
 

@@ -3,7 +3,7 @@
 
     python benchmarks/stage_times.py [--points 40000,250000] [--shape knot] [--runs 3]
 
-The command runs as a user runs it, in a process of its own: the whole time holds the start of Python and the reading
+The command runs as a user runs it, in a process of its own: the total time includes the start of Python and the reading
 and writing of files. Stages are timed by the report that the command writes. Every number is the median of the runs.
 """
 
@@ -43,7 +43,7 @@ def run_once(cloud: Path, folder: Path, arguments: tuple[str, ...]) -> Run:
 
 
 def seconds_by_stage(run: Run) -> dict[str, float]:
-    """Return the seconds of each stage, those that ran twice added up, and of what no stage holds."""
+    """Return the seconds of each stage, summed over repetitions, and of the time outside of any stage."""
     seconds: dict[str, float] = {}
     for stage in run["report"]["stages"]:
         if stage["level"] == 0:

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Reconstruct with another kind of tangent plane in R^8: the paper's ablation (its section 4), run by tangents.toml.
+"""Reconstruct with another kind of tangent plane in R^8, as in the HD-PEA paper, section 4.3; run by tangents.toml.
 
     python benchmarks/tangents.py POINTS MESH VERTICES --planes pca-r3
 
-The paper takes PCA over neighbours in R^3; hdpea the plane across the normal, and psi fitted on it.
+HD-PEA takes PCA over neighbours in R^3; hdpea the plane orthogonal to the normal, and psi fitted on it.
 """
 
 from __future__ import annotations
@@ -19,10 +19,8 @@ from numpy.typing import NDArray
 from hdpea import _core
 from hdpea.embedding import embed_surface
 from hdpea.embedding.tangents import TANGENT_NEIGHBORS, tangent_bases
-from hdpea.mesh.extraction import extract_mesh
-from hdpea.mesh.particles import spread_particles
-from hdpea.mesh.refinement import refine_mesh
-from hdpea.options import EmbeddingOptions
+from hdpea.mesh.assembly import assemble_mesh
+from hdpea.options import EmbeddingOptions, Options, ParticleOptions
 from hdpea.surface.surface import Surface
 from hdpea.writing.meshes import write_mesh
 
@@ -53,12 +51,11 @@ PLANES: dict[str, Callable[[Array, Surface], Array]] = {
 @click.argument("vertices", type=int)
 @click.option("--planes", type=click.Choice(list(PLANES)), required=True)
 def main(*, points: Path, mesh: Path, vertices: int, planes: str) -> None:
-    """Reconstruct POINTS, which bring their normals, with one kind of tangent plane."""
+    """Reconstruct POINTS, which have normals, with one kind of tangent plane."""
     surface = given_surface(points)
     coordinates = embed_surface(surface, vertices, EmbeddingOptions()).coordinates
     bases = PLANES[planes](coordinates, surface)
-    particles = spread_particles(coordinates, bases, surface.neighbors, vertices)
-    made = refine_mesh(extract_mesh(particles, bases, surface), surface)
+    made = assemble_mesh(surface, coordinates, bases, Options(particles=ParticleOptions(particles=vertices)))
     write_mesh(mesh, surface.frame.to_world(made.vertices_in_unit), made.faces)
 
 

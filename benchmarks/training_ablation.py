@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the network is best trained for: each loss with the same number of steps, judged by reconstructions.
+"""Ablation of the training: each loss with the same number of steps, compared by reconstructions.
 
     python benchmarks/training_ablation.py TRAINING VALIDATION OUT [--steps 1500] [--stem] [--picture DIR]
 
-TRAINING and VALIDATION are folders that `hdpea dataset build` made. Each loss trains a network of its own in a folder
-of OUT, so a run that was stopped goes on where it was, and its weights go beside that, for losses.toml. Then the clouds
-of VALIDATION are reconstructed from what each has learned, alone and settled by the solver. The paper's are ndhde-* and
-point-* (its Table 4). Prints Markdown.
+TRAINING and VALIDATION are folders made by `hdpea dataset build`. Each loss trains a network of its own in a folder of
+OUT, so that a stopped run can be resumed; its weights are written beside that folder, for losses.toml. Then clouds of
+VALIDATION are reconstructed by each network, alone and followed by rounds of the solver. The losses ndhde-* and point-*
+are those of the HD-PEA paper (Table 4). Prints Markdown.
 """
 
 from __future__ import annotations
@@ -36,9 +36,13 @@ ROUNDS_AFTER = {"alone": 0, "settled": ROUNDS}
 @click.argument("validation", type=click.Path(exists=True, path_type=Path))
 @click.argument("out", type=click.Path(file_okay=False, path_type=Path))
 @click.option("--steps", default=1500, show_default=True)
-@click.option("--clouds", default=5, show_default=True, help="of VALIDATION to judge by, spread over it")
-@click.option("--stem", is_flag=True, help="compare ways to see curvature instead of losses")
-@click.option("--picture", type=click.Path(path_type=Path), help="folder for pictures, alone: rows from left to right")
+@click.option("--clouds", default=5, show_default=True, help="clouds of VALIDATION to reconstruct, spread over it")
+@click.option("--stem", is_flag=True, help="compare inputs of the network for curvature instead of losses")
+@click.option(
+    "--picture",
+    type=click.Path(path_type=Path),
+    help="folder for pictures without the solver: rows of the table from left to right",
+)
 def main(
     *, training: Path, validation: Path, out: Path, steps: int, clouds: int, stem: bool, picture: Path | None
 ) -> None:

@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How a training went: means of its loss and of what it is made of, from its metrics.jsonl.
+"""Curves of a training: means of the loss and its terms, from metrics.jsonl.
 
     python benchmarks/training_curves.py FOLDER [--every 500]
 
-FOLDER is what `hdpea train` wrote. Prints Markdown.
+FOLDER is the output of `hdpea train`. Prints Markdown.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ COLUMNS = {"loss": 3, "distance": 3, "metric": 3, "flatness": 3, "seconds_per_st
 @click.argument("folder", type=click.Path(exists=True, path_type=Path))
 @click.option("--every", default=500, show_default=True, help="steps in a row")
 def main(*, folder: Path, every: int) -> None:
-    """Print the means of every so many steps."""
+    """Print the means over intervals of steps."""
     lines = [json.loads(line) for line in (folder / METRICS).read_text().splitlines()]
     rows: dict[tuple[str, ...], list[list[float]]] = {}
     for line in lines:

@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Scores on a folder of meshes, beside those of other methods.
+"""Scores on a folder of meshes, next to those of other methods.
 
     python benchmarks/val_table.py [--meshes bull,trex] [--save DIR --picture] [--embedding learned] [--no-refine]
 
 Each mesh is sampled (40,000 points with normals, seeded by its name), reconstructed from the points alone, and scored
-by the `metrics.py` of the baselines' folder, whose `val.csv` has the other methods' rows. Prints Markdown. A mesh that
-fails is a row that says so. Needs the `bench` dependency group (`make bench-setup`).
+by the `metrics.py` of the baselines' folder, whose `val.csv` has the rows of the other methods. Prints Markdown. A mesh
+that fails is reported in its row. Needs the `bench` dependency group (`make bench-setup`).
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ ROOT = Path(__file__).resolve().parent.parent
 POINTS = 40_000
 OURS, FLOOR = "hdpea", "floor"
 
-# Columns and their digits. CDs, HDs and G tell good meshes apart; CD, F1 and HD stop at the sampling floor.
+# Columns and their digits. CDs, HDs and G distinguish good meshes; CD, F1 and HD are limited by the sampling floor.
 COLUMNS = {
     "nV": 0, "CDs": 3, "HDs": 3, "G": 3, "CD": 3, "F1": 4, "NC": 4, "HD": 3, "T3": 3, "watertight": 2, "manifold": 2,
     "boundary_edges": 1, "nonmanifold_edges": 1, "seconds": 1,
@@ -119,11 +119,11 @@ def run_mesh(task: Task) -> Row:
 
 
 def run_isolated(task: Task) -> Row:
-    """Run a mesh in a process of its own: its crash is its own too, and so is its memory."""
+    """Run a mesh in a process of its own, so that a crash or its memory does not affect the others."""
     try:
         with ProcessPoolExecutor(1, mp_context=multiprocessing.get_context("spawn")) as pool:
             row = pool.submit(run_mesh, task).result()
-    except Exception as error:  # noqa: BLE001 whatever happened to one mesh, the others go on
+    except Exception as error:  # noqa: BLE001 an error in one mesh must not stop the others
         note = f"{type(error).__name__}: {error}"
         row = {"mesh": task.path.stem, "peer": OURS, "status": "failed", "note": note}
     click.echo(f"{task.path.stem}: {row.get('note', row['status'])}", err=True)

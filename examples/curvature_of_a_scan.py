@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A scan coloured by curvature: blue where flat, red where it bends most.
+"""A scan coloured by curvature: blue where it is flat, red where the curvature is largest.
 
     python examples/curvature_of_a_scan.py scan.ply colored.ply
 
-Look at the result in any viewer of point clouds; beside it lies a page with the tensors themselves, for a browser.
+View the result in any point cloud viewer; next to it there is a page with the tensors themselves, for a browser.
 """
 
 from __future__ import annotations

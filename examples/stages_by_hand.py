@@ -3,7 +3,7 @@
 
     python examples/stages_by_hand.py torus.obj
 
-Each stage takes and returns arrays, or one small dataclass of them: look at any, replace any.
+Each stage takes and returns arrays, or one small dataclass of them: inspect or replace any of them.
 """
 
 from __future__ import annotations
@@ -25,10 +25,10 @@ from hdpea.writing.meshes import write_mesh
 
 
 def main(out: Path, vertices: int = 1_000) -> None:
-    """Reconstruct a torus and say what each stage did."""
+    """Reconstruct a torus and print what each stage did."""
     points, normals = sample("torus", 20_000)
 
-    # Unit frame, one orientation, neighbours along the surface: what all later stages work on.
+    # Unit frame, one orientation, neighbours along the surface: the input of all later stages.
     surface = oriented_surface(points, normals).surface
     print(f"points are {surface.spacing:.4f} of the diagonal apart")
 
@@ -38,12 +38,12 @@ def main(out: Path, vertices: int = 1_000) -> None:
     stretch = np.ptp(coordinates, axis=0)
     print(f"extent in R^3: {stretch[:3].round(2)}, in the five dimensions added: {stretch[3:].round(2)}")
 
-    # Vertices even in R^8, hence dense across the tube and sparse along it in R^3.
+    # Evenly spaced in R^8, and so dense around the tube and sparse along it in R^3.
     particles = spread_particles(coordinates, bases, surface.neighbors, vertices)
     mesh = extract_mesh(particles, bases, surface)
     print(f"{mesh.statistics['t3']} triangles agreed upon by all three corners; {len(mesh.faces)} faces")
 
-    # Vertices lie on tangent planes, outside of every bend; the fit pulls the faces through the points.
+    # Vertices lie on tangent planes, outside of convex bends; the fit moves the faces onto the points.
     fitted = refine_mesh(mesh, surface)
     moved = np.linalg.norm(fitted.vertices_in_unit - mesh.vertices_in_unit, axis=1)
     print(f"the fit moved vertices by {moved.mean():.5f} of the diagonal on average")

@@ -77,16 +77,19 @@ def core_errors_translated() -> Iterator[None]:
     """
     try:
         yield
-    except MemoryError as error:
-        raise HdpeaError("There is not enough memory.", "`hdpea info` says what a run needs.") from error
-    except (ValueError, RuntimeError) as error:
+    except (MemoryError, ValueError, RuntimeError) as error:
         # Imported this late because the command line must start without the core.
         from hdpea import _core
 
+        # torch has no error of its own for it.
+        if isinstance(error, MemoryError) or "can't allocate memory" in str(error):
+            raise HdpeaError("There is not enough memory.", "`hdpea info` says what a run needs.") from error
         if isinstance(error, _core.InvalidArgument):
-            raise UsageError(_sentence(error), "Check the shapes and the values of what was given.") from error
+            hint = "A stage was given what it does not take: check the arrays and lengths that you gave."
+            raise UsageError(_sentence(error), hint) from error
         if isinstance(error, _core.CannotReconstruct):
-            raise CannotReconstruct(_sentence(error)) from error
+            hint = "The points may lie in a few places, or be spread too unevenly."
+            raise CannotReconstruct(_sentence(error), hint) from error
         if isinstance(error, _core.Cancelled):
             raise Interrupted from error
         raise

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 import pytest
 from helpers import clouds
-from helpers.made import assert_same_bytes, cloud_of, mesh_of, options
+from helpers.reconstructions import assert_same_bytes, cloud_of, mesh_of, options
 
 from hdpea import reconstruct
 from hdpea.errors import CannotReconstruct, Interrupted, UnreadableInput, UsageError

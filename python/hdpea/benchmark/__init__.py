@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Suites of models, degradations, methods and sizes, run and measured by one command.
+"""Suites of models, degradations, methods and sizes: run, measured and compared.
 
 >>> from hdpea.benchmark import read_suite, run_suite  # doctest: +SKIP
 >>> records = run_suite(read_suite("quick"), "meshes", Path("results"))  # doctest: +SKIP

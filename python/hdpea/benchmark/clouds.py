@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The points that every method of a suite is given."""
+"""The clouds that every method of a suite is given."""
 
 from __future__ import annotations
 
@@ -26,16 +26,16 @@ Rows = NDArray[np.float64]
 
 
 def make_cloud(surface: TriangleMesh, model: str, given: SuiteInput, seed: int) -> Cloud:
-    """Draw points of a surface in world units, or scan it, and make them worse; the same for the same names and seed.
+    """Sample or scan a surface in world units, and degrade the points; the same for the same names and seed.
 
-    Normals are the true ones, unless the input says that they are to be estimated from the points.
+    Normals are the true ones, unless the input asks for normals estimated from the points.
 
     Raises
     ------
     CannotReconstruct
         If no sensor sees the surface, or it has no area.
     UsageError
-        If a scan is asked for and embreex is missing; if no points are left.
+        If a scan is requested and embreex is missing; if no points remain.
     """
     seed = seed_of(model, seed)
     frame = UnitFrame.around(surface[0])
@@ -49,9 +49,9 @@ def make_cloud(surface: TriangleMesh, model: str, given: SuiteInput, seed: int) 
 
 
 def bare_sample(points: Rows, surface_points: Rows, normals: Rows, frame: UnitFrame) -> Sample:
-    """Return a sample of points, the points of the surface they stand for, and normals, each (n, 3), unit frame.
+    """Return a sample of points, their true points of the surface, and normals, each (n, 3) in the unit frame.
 
-    It has no embedding: no method is given one.
+    It has no embedding, since no method is given one.
     """
     nothing = np.zeros((len(points), 0), np.float32)
     return Sample(
@@ -66,14 +66,14 @@ def bare_sample(points: Rows, surface_points: Rows, normals: Rows, frame: UnitFr
 
 
 def cloud_of(sample: Sample, model: str, given: SuiteInput) -> Cloud:
-    """Return what methods are given of a sample: its points in world units, its estimated normals if it has any."""
+    """Return the input of the methods: points in world units, with the estimated normals if there are any."""
     normals = sample.normals if sample.estimated_normals is None else sample.estimated_normals
     points = sample.frame.to_world(sample.points.astype(np.float64))
     return Cloud(points, normals.astype(np.float64), model, given.name)
 
 
 def write_cloud(path: Path, cloud: Cloud) -> None:
-    """Write the cloud as PLY, for methods that run elsewhere."""
+    """Write the cloud as PLY, also for methods that run elsewhere."""
     path.parent.mkdir(parents=True, exist_ok=True)
     with replacing(path) as partial:
         partial.write_bytes(point_ply(cloud.points, cloud.normals, {}))

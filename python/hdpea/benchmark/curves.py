@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Error against size: one curve for each method, as SVG."""
+"""Plots of error against the number of vertices, one curve for each method, as SVG."""
 
 from __future__ import annotations
 
@@ -18,12 +18,12 @@ Curve = Sequence[tuple[float, float]]
 
 
 def draw_curves(title: str, unit: str, curves: Mapping[str, Curve]) -> str:
-    """Return an SVG picture of curves by name on logarithmic axes: vertices to the right, error upwards.
+    """Return a plot of curves by name on logarithmic axes, as SVG: vertices to the right, error upwards.
 
     Parameters
     ----------
     unit
-        What stands on the upward axis.
+        Label of the vertical axis.
     curves
         Positive numbers; a name without points is left out.
     """
@@ -64,7 +64,7 @@ def draw_curves(title: str, unit: str, curves: Mapping[str, Curve]) -> str:
 
 
 def _ticks(low: float, high: float) -> list[float]:
-    """Return round numbers between two powers of ten: 1, 2 and 5 of each, or 1 alone where that is enough."""
+    """Return round numbers between two powers of ten: 1, 2 and 5 of each, or 1 alone where these are enough."""
     powers = range(int(np.floor(low)), int(np.ceil(high)) + 1)
     steps = (1, 2, 5) if high - low < 3 else (1,)
     values = [step * 10.0**power for power in powers for step in steps]

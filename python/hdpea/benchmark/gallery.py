@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The pictures of a suite's results, drawn where they are missing or older than the mesh they show."""
+"""The pictures of a suite's results, drawn if they are missing or older than their mesh."""
 
 from __future__ import annotations
 
@@ -18,12 +18,12 @@ from hdpea.runtime.outputs import replacing
 
 PICTURES = "pictures"
 QUALITY = 80
-"""Of WebP, 0 to 100."""
+"""Quality of WebP, 0 to 100."""
 
 
 @dataclass(frozen=True)
 class Pictures:
-    """The two pictures of a result: its edges on its surface, and its error."""
+    """The two pictures of a result: the surface with its edges, and the error."""
 
     surface: Path
     error: Path
@@ -31,7 +31,7 @@ class Pictures:
 
 @dataclass(frozen=True)
 class Gallery:
-    """Picture of each drawn model's truth by its name, and those of the results by their record's stem."""
+    """Pictures of the truth by the name of the model, and of the results by the stem of their record."""
 
     truths: dict[str, Path]
     results: dict[Path, Pictures]
@@ -69,7 +69,7 @@ def _draw_model(gallery: Gallery, model: Model, folder: Path, records: Sequence[
 
 
 def _drawn(picture: Path, mesh: Path, draw: Callable[[Path], None]) -> None:
-    """Draw a picture, unless it is there and newer than the mesh."""
+    """Draw a picture, unless one exists that is newer than the mesh."""
     if picture.exists() and picture.stat().st_mtime > mesh.stat().st_mtime:
         return
     from PIL import Image
@@ -78,6 +78,6 @@ def _drawn(picture: Path, mesh: Path, draw: Callable[[Path], None]) -> None:
     with TemporaryDirectory() as temporary:
         drawn = Path(temporary) / "drawn.png"
         draw(drawn)
-        # A fifth of PNG's size: the page holds all of them.
+        # A fifth of the size of PNG, which matters since the page contains all of them.
         with Image.open(drawn) as image, replacing(picture) as partial:
             image.convert("RGB").save(partial, "WEBP", quality=QUALITY)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Models of which only a cloud is known, such as real scans: points that no method is given are the truth."""
+"""Models of which only a cloud is known, such as real scans: points held out from all methods are the truth."""
 
 from __future__ import annotations
 
@@ -25,42 +25,42 @@ from hdpea.surface.normals import oriented_surface
 
 @dataclass
 class HeldOut(Model):
-    """A cloud in two halves: of one, inputs are made; the other is the truth."""
+    """A cloud in two halves: one provides the inputs, the other is the truth."""
 
     @property
     def content(self) -> str:
-        """As of any model; a file that is a mesh has another truth by its vertices than by its surface."""
+        """As for any model, but different from that of the same file taken as a surface."""
         return f"{HELD_OUT} of {self.source.sha256()}"
 
     @cached_property
     def halves(self) -> tuple[PointCloud, PointCloud]:
-        """Points to be given, in random order, and points held out."""
+        """Points for the inputs, in random order, and points held out."""
         return halves_of(read_points(self.source.path), seed_of(self.name, self.options.seed))
 
     @cached_property
     def truth(self) -> Truth:
-        """The points held out, with the normals of the file, if it has any."""
+        """The points held out, with the normals of the file, if any."""
         _, held_out = self.halves
         return truth_of_points(held_out.points, held_out.normals, self.measuring)
 
     def cloud(self, given: SuiteInput) -> Cloud:
-        """Take the first points of those to be given: as many as the input wants, or all."""
+        """Take the first points of those for the inputs: as many as the input asks for, or all."""
         to_give, _ = self.halves
         return make_cloud_of_points(to_give, self.name, given, self.options.seed)
 
     def scene(self) -> Scene:
-        """Return the points held out, to be drawn."""
+        """Return the scene of the points held out."""
         _, held_out = self.halves
         return PointScene.of(held_out.points, held_out.normals)
 
 
 def halves_of(cloud: PointCloud, seed: int) -> tuple[PointCloud, PointCloud]:
-    """Return two halves of a cloud at random, each in random order; the second has the odd point.
+    """Split a cloud at random into two halves, each in random order; of an odd number, the second has one more.
 
     Raises
     ------
     CannotReconstruct
-        If there are no two points.
+        If there are fewer than two points.
     """
     if len(cloud.points) < 2:
         raise CannotReconstruct("The cloud is a single point.", "Half of its points are held out, as the truth.")
@@ -70,20 +70,20 @@ def halves_of(cloud: PointCloud, seed: int) -> tuple[PointCloud, PointCloud]:
 
 
 def make_cloud_of_points(to_give: PointCloud, model: str, given: SuiteInput, seed: int) -> Cloud:
-    """Take the first points of a cloud in world units, and make them worse; the same for the same names and seed.
+    """Take the first points of a cloud in world units, and degrade them; the same for the same names and seed.
 
-    Normals are the file's where they are usable, unless the input says that they are to be estimated; the others are
-    estimated from the points that are given, and all are oriented as ``hdpea.surface.normals`` does by default.
+    Normals are those of the file where they are usable, unless the input asks for estimated ones; the others are
+    estimated from the degraded points, and all are oriented as ``hdpea.surface.normals`` does by default.
 
     Raises
     ------
     CannotReconstruct
         If the points are too few, equal or on a line.
     UsageError
-        If no points are left.
+        If no points remain.
     """
     seed = seed_of(model, seed)
-    frame = UnitFrame.around(to_give.points)  # of all of them: noise does not depend on how many are taken
+    frame = UnitFrame.around(to_give.points)  # of all points, so that noise does not depend on how many are taken
     taken = to_give.at(np.arange(min(given.scan.points, len(to_give.points))))
     points = frame.to_unit(taken.points)
     from_file = np.zeros_like(points) if taken.normals is None else taken.normals
@@ -91,7 +91,7 @@ def make_cloud_of_points(to_give: PointCloud, model: str, given: SuiteInput, see
     worse = degraded(bare_sample(points, points, from_file, frame), asked)
     known = None if given.sample.estimate else worse.normals.astype(np.float64)
     oriented = oriented_surface(worse.points.astype(np.float64), known).surface.normals
-    # What is asked for normals comes last: orienting those of the file would turn flipped ones back.
+    # Normals are degraded last: orienting them would undo flips.
     of_normals = DegradationOptions(normal_noise=asked.normal_noise, flipped=asked.flipped, seed=seed)
     worse = degraded(replace(worse, estimated_normals=oriented.astype(np.float32)), of_normals)
     return cloud_of(worse, model, given)

@@ -16,10 +16,10 @@ Point = tuple[float, float]
 
 @dataclass(frozen=True)
 class Column:
-    """A column of the means: the path to its score, {unit} being the normalisation, and how it is written.
+    """A column of the means: the path to its score, with {unit} for the normalisation, and its format.
 
-    `better` is 1 where larger is better, -1 where smaller is, and 0 where neither. Where the score `unless` is known,
-    this one has nothing to add.
+    `better` is 1 if larger is better, -1 if smaller is, and 0 if neither. The column is empty for runs that have the
+    score `unless`, which replaces it.
     """
 
     title: str
@@ -32,13 +32,13 @@ class Column:
     unless: str = ""
 
     def of(self, record: Record, unit: str) -> float | None:
-        """Return the score of a run; None if there is none or a better one."""
+        """Return the score of a run; None if it has none, or has the one that replaces it."""
         if self.unless and record.score(self.unless.format(unit=unit)) is not None:
             return None
         return record.score(self.path.format(unit=unit))
 
     def text(self, value: float | None) -> str:
-        """Return a value as it stands in the table."""
+        """Return a value formatted for the table."""
         return "" if value is None else f"{self.scale * value:,.{self.digits}f}"
 
 
@@ -72,7 +72,7 @@ TIME_TITLES = ("seconds", "CPU seconds", "GB")
 class Means:
     """The mean scores of a method for one input and budget, over the models that every method finished.
 
-    `values` are by column, `times` as in ``TIMES``; `finished` and `tried` count models.
+    `values` follow ``COLUMNS``, `times` follow ``TIMES``; `finished` and `tried` count models.
     """
 
     method: str
@@ -83,7 +83,7 @@ class Means:
 
 
 def means_of(records: Sequence[Record], suite: Suite, given: str, vertices: int) -> list[Means]:
-    """Return a row for each method, and the floor if it is known; methods that finished nothing have no values."""
+    """Return a row for each method, and the floor if it is known; methods that finished no model have no values."""
     here = [each for each in records if (each.given, each.vertices) == (given, vertices)]
     of_method = {
         method.name: {each.model: each for each in here if each.method == method.name} for method in suite.methods
@@ -97,7 +97,7 @@ def means_of(records: Sequence[Record], suite: Suite, given: str, vertices: int)
         values = tuple(_mean([column.of(each, unit) for each in counted]) for column in COLUMNS)
         times = tuple(_mean([getattr(each, field) for each in counted]) for field, _, _ in TIMES)
         rows.append(Means(name, len(done[name]), len(runs), values, times))
-    # The floor is the same in every record of a model.
+    # All records of a model have the same floor.
     finished = list({each.model: each for each in here if each.model in common and not each.failed}.values())
     floors = tuple(
         _mean([each.score(column.floor.format(unit=unit)) for each in finished]) if column.floor else None
@@ -110,8 +110,8 @@ def means_of(records: Sequence[Record], suite: Suite, given: str, vertices: int)
 def error_by_size(records: Sequence[Record], suite: Suite, given: str, column: Column) -> dict[str, list[Point]]:
     """Return, for each method, the mean number of vertices and the geometric mean of an error, by wanted size.
 
-    Over the models that every method finished at that size. Errors of models differ by powers of ten, so an ordinary
-    mean would show the worst model alone.
+    Over the models that every method finished at that size. Errors of models differ by orders of magnitude, so an
+    arithmetic mean would show the worst model alone.
     """
     curves: dict[str, list[Point]] = {method.name: [] for method in suite.methods}
     for vertices in suite.options.vertices:
@@ -136,7 +136,7 @@ def _finished(records: Sequence[Record], suite: Suite) -> dict[str, set[str]]:
 
 
 def _common(finished: dict[str, set[str]]) -> set[str]:
-    """Return the models that all methods finished, but for those that finished none."""
+    """Return the models finished by all methods, ignoring methods that finished none."""
     return set.intersection(*[models for models in finished.values() if models] or [set()])
 
 
@@ -146,7 +146,7 @@ def _mean(values: Sequence[float | None]) -> float | None:
 
 
 def best_of(means: Sequence[Means]) -> set[tuple[str, int]]:
-    """Return method and column of the best values, as they are written; none where all are the same."""
+    """Return the methods and columns of the best values after rounding; none where all values are equal."""
     best = set()
     methods = [row for row in means if row.method != FLOOR]
     for i, column in enumerate(COLUMNS):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a model of a suite can do, whether its surface is known or only points of it."""
+"""The interface of a model of a suite, whether its surface is known or only points of it."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from hdpea.reading.triangle_mesh import TriangleMesh
 
 @dataclass
 class Model(ABC):
-    """A model of a suite with these options; its file is read only if a run needs it, then once for all of them."""
+    """A model of a suite with these options; its file is read when a run first needs it, and only once."""
 
     source: Source
     options: SuiteOptions
@@ -32,18 +32,18 @@ class Model(ABC):
 
     @property
     def content(self) -> str | None:
-        """What tells its points and its truth from those of another file; None if the file cannot be read."""
+        """A key that identifies the file's content and its use; None if the file cannot be read."""
         return self.source.sha256()
 
     @property
     def measuring(self) -> EvaluationOptions:
-        """How results are measured."""
+        """The options of the evaluation of results."""
         return EvaluationOptions(samples=self.options.samples)
 
     @cached_property
     @abstractmethod
     def truth(self) -> Truth:
-        """What results are measured against."""
+        """The truth against which results are evaluated."""
 
     @abstractmethod
     def cloud(self, given: SuiteInput) -> Cloud:
@@ -54,17 +54,17 @@ class Model(ABC):
         UnreadableInput
             If the file cannot be read.
         CannotReconstruct
-            If no points can be had of it, or no normals of them.
+            If no points can be made from it, or no normals of them.
         UsageError
-            If a scan is asked for and embreex is missing; if no points are left.
+            If a scan is requested and embreex is missing; if no points remain.
         """
 
     @abstractmethod
     def scene(self) -> Scene:
-        """Return the truth, to be drawn; ``check_drawing`` first."""
+        """Return the scene in which truth and results are drawn; call ``check_drawing`` first."""
 
     def scores(self, mesh: TriangleMesh) -> dict[str, Any]:
-        """Measure a result, as ``Evaluation.as_dict``.
+        """Return the scores of a result, as ``Evaluation.as_dict`` does.
 
         Raises
         ------

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The results as one HTML file that needs no other: tables, curves, and pictures side by side."""
+"""The results as one self-contained HTML file: tables, curves, and pictures side by side."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ ERROR_MAPS = {
     MESH: "from the surface of the result to the truth",
     HELD_OUT: "from each point of the truth to the surface of the result",
 }
-"""What the error maps show, by the kind of the truth."""
+"""Caption of the error maps, by the kind of the truth."""
 
 
 def write_page(
@@ -54,7 +54,7 @@ def write_page(
     curves: Mapping[str, str],
     subtitle: Sequence[str],
 ) -> None:
-    """Write the page, whole or not at all; `subtitle` is what stands below the title.
+    """Write the page, whole or not at all; `subtitle` is printed below the title.
 
     Raises
     ------

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Where results come from: version, commit, machine and day."""
+"""Provenance of results: version, commit, machine and day."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ HERE = Path(__file__).parent
 
 
 def provenance(codes: Iterable[str]) -> str:
-    """Return the code that the runs were done by (``code``, of each run), the machine and the day."""
+    """Return the distinct versions of the code that did the runs (see ``code``), the machine and the day."""
     cores, day = os.cpu_count(), datetime.now(UTC).date().isoformat()
     known = " and ".join(each for each in dict.fromkeys(codes) if each)
     return f"{known or code()}, {platform.system()} {platform.machine()}, {cores} cores, {day}"
@@ -32,13 +32,13 @@ def code() -> str:
 
 
 def commit() -> str:
-    """Return the commit of the checkout that this runs from, with a ``+`` if files are changed; empty if it is none."""
+    """Return the commit of the checkout this runs from, with ``+`` if files have changed; empty without one."""
     git = shutil.which("git")
-    if git is None or not (Path(_told(git, "rev-parse", "--show-toplevel")) / "python/hdpea/version.py").is_file():
+    if git is None or not (Path(_output_of(git, "rev-parse", "--show-toplevel")) / "python/hdpea/version.py").is_file():
         return ""
-    return _told(git, "rev-parse", "--short", "HEAD") + ("+" if _told(git, "status", "--porcelain") else "")
+    return _output_of(git, "rev-parse", "--short", "HEAD") + ("+" if _output_of(git, "status", "--porcelain") else "")
 
 
-def _told(git: str, *command: str) -> str:
+def _output_of(git: str, *command: str) -> str:
     made = subprocess.run([git, "-C", str(HERE), *command], capture_output=True, text=True, check=False)  # noqa: S603
     return made.stdout.strip() if made.returncode == 0 else ""

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What became of one run: a method on the points of a model, with a budget of vertices."""
+"""The record of one run: a method on the points of a model, with a budget of vertices."""
 
 from __future__ import annotations
 
@@ -14,10 +14,10 @@ from typing import Any
 from hdpea.runtime.outputs import replacing
 
 RMS = ("accuracy.longest_side.to_truth.rms", "accuracy.longest_side.to_result.rms")
-"""Paths to the distance that people are told of a run: from the result, or if the truth is only points, from these."""
+"""Paths to the distance that is logged for a run: from the result, or if the truth is a point cloud, to the result."""
 
 LARGEST = ("accuracy.longest_side.hausdorff", "accuracy.longest_side.to_result.max")
-"""The same for the largest distance, either way or from the points."""
+"""The same for the largest distance, in either direction or from the points."""
 
 
 @dataclass(frozen=True)
@@ -29,16 +29,16 @@ class Record:
     model, given, method
         Names of the model, the input and the method.
     vertices
-        Wanted.
+        Number wanted.
     key
-        Of all that the mesh and its scores depend on; a run is done again when it changes.
+        Hash of everything that the mesh and its scores depend on; a run is done again when it changes.
     code
-        The version and commit of hdpea that did it.
+        The version and commit of hdpea that did the run.
     failed
-        Why there is no mesh, in a sentence; empty if there is one.
+        Why there is no mesh, as a sentence; empty if there is one.
     seconds, cpu_seconds, peak_bytes
-        Of the method alone, after its libraries were loaded: on the clock, and of all cores together, which a busy
-        machine changes less; peak resident memory of its process.
+        Cost of the method alone, after its libraries were loaded: elapsed time; CPU time of all cores, which depends
+        less on the load of the machine; peak resident memory of its process.
     scores
         As ``Evaluation.as_dict``.
     """
@@ -56,10 +56,7 @@ class Record:
     scores: Mapping[str, Any] = field(default_factory=dict)
 
     def score(self, *paths: str) -> float | None:
-        """Return a score by the names on the way to it, such as ``triangles.g``; of several, the first there is.
-
-        None where there is none.
-        """
+        """Return the score at a path such as ``triangles.g``; of several paths, the first that exists; None without."""
         for path in paths:
             found: Any = self.scores
             for name in path.split("."):
@@ -70,17 +67,17 @@ class Record:
 
     @property
     def stem(self) -> Path:
-        """Where the files of this run lie in a folder of their kind, without their extension."""
+        """Relative path of the files of this run, without extension."""
         return Path(*map(file_name, (self.given, self.model, f"{self.method}@{self.vertices}")))
 
 
 def file_name(name: str) -> str:
-    """Return a name as a part of a path."""
+    """Return a name made safe as a part of a path."""
     return re.sub(r"[^\w.@%+-]+", "_", name)
 
 
 def key_of(*what: Any) -> str:
-    """Return a key of anything that JSON can hold."""
+    """Return a hash of anything that JSON can represent."""
     return sha256(json.dumps(what, sort_keys=True, default=str).encode()).hexdigest()
 
 
@@ -92,7 +89,7 @@ def write_record(path: Path, record: Record) -> None:
 
 
 def read_record(path: Path) -> Record | None:
-    """Read a record; None if there is none, or none that this version wrote."""
+    """Read a record; None if there is none, or another version wrote it."""
     try:
         return Record(**json.loads(path.read_text()))
     except (OSError, ValueError, TypeError):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How alike two surfaces look under one light: PSNR and SSIM of their pictures (the paper's appendix G)."""
+"""Similarity of renderings of two surfaces under one light: PSNR and SSIM (as in the HD-PEA paper, appendix G)."""
 
 from __future__ import annotations
 
@@ -18,14 +18,14 @@ SIZE = (512, 512)
 
 GREY = (200, 200, 200)
 BEHIND = np.diag([-1.0, 1.0, -1.0])
-"""Half a turn about the upward axis of the picture: each surface is looked at from two sides."""
+"""Half a turn about the vertical axis of the view: each surface is rendered from two opposite sides."""
 
 WINDOW, SIGMA = 11, 1.5
 STABILIZERS = (0.01**2, 0.03**2)
-"""Of SSIM: as in Wang, Bovik, Sheikh and Simoncelli (2004), for pictures from 0 to 1."""
+"""Constants of SSIM, as in Wang, Bovik, Sheikh and Simoncelli (2004), for pictures from 0 to 1."""
 
 LEAST_ERROR = 1e-10
-"""Mean squared, so that equal pictures have 100 dB and not infinity."""
+"""Smallest mean squared error, so that equal pictures have 100 dB instead of infinity."""
 
 Picture = NDArray[np.float64]
 
@@ -33,19 +33,19 @@ Picture = NDArray[np.float64]
 def compare_renderings(truth: TriangleMesh, mesh: TriangleMesh) -> dict[str, float]:
     """Return PSNR (dB) and SSIM (at most 1) of a mesh's flatly shaded pictures, against those of the truth.
 
-    Both are means over the pixels that either covers, of two sides; ``check_drawing`` first.
+    Both are means over the pixels covered by either surface, from two sides; call ``check_drawing`` first.
     """
     front = Camera.before(*truth)
     back = replace(front, view_from_world=BEHIND @ front.view_from_world, centre_in_view=BEHIND @ front.centre_in_view)
-    errors, likenesses = [], []
+    errors, similarities = [], []
     for camera in (front, back):
         expected, seen = render(truth, camera), render(mesh, camera)
         covered = np.minimum(expected, seen) < 1
         errors.append(((expected - seen) ** 2)[covered])
         edge = WINDOW // 2
-        likenesses.append(structural_similarity(expected, seen)[covered[edge:-edge, edge:-edge]])
+        similarities.append(structural_similarity(expected, seen)[covered[edge:-edge, edge:-edge]])
     error = float(np.concatenate(errors).mean())
-    return {"psnr": -10 * float(np.log10(max(error, LEAST_ERROR))), "ssim": float(np.concatenate(likenesses).mean())}
+    return {"psnr": -10 * float(np.log10(max(error, LEAST_ERROR))), "ssim": float(np.concatenate(similarities).mean())}
 
 
 def render(mesh: TriangleMesh, camera: Camera) -> Picture:
@@ -61,7 +61,7 @@ def render(mesh: TriangleMesh, camera: Camera) -> Picture:
 
 
 def structural_similarity(one: Picture, other: Picture) -> Picture:
-    """Return the SSIM of two pictures (h, w) around each pixel that has its whole window: (h - 10, w - 10)."""
+    """Return the SSIM of two pictures (h, w) at each pixel whose window lies within them: (h - 10, w - 10)."""
     mean1, mean2 = _blurred(one), _blurred(other)
     variance1, variance2 = _blurred(one**2) - mean1**2, _blurred(other**2) - mean2**2
     covariance = _blurred(one * other) - mean1 * mean2

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The files that a suite ends in: results.csv, results.md, and index.html that holds it all."""
+"""The files of results: results.csv, results.md, and index.html, which contains everything."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ OF_POINTS = (
 )
 
 CURVE_COLUMNS = ("exact CD (1e-5)", "exact HD (1e-2)", "exact rms (1e-2)", "exact max (1e-2)")
-"""Errors that are drawn against the number of vertices."""
+"""Errors that are plotted against the number of vertices."""
 
 
 def write_results(folder: Path, suite: Suite, records: Sequence[Record], gallery: Gallery) -> None:
@@ -64,7 +64,7 @@ def unit_sentence(suite: Suite) -> str:
 
 
 def truth_sentences(suite: Suite) -> list[str]:
-    """Return what there is to say about the truth: nothing, unless it is only points."""
+    """Return remarks on the truth: none unless it is a point cloud."""
     return [OF_POINTS] if suite.options.truth == HELD_OUT else []
 
 
@@ -91,7 +91,7 @@ def results_in_markdown(suite: Suite, records: Sequence[Record], curves: dict[st
 
 
 def curves_of(suite: Suite, records: Sequence[Record]) -> dict[str, str]:
-    """Return SVG pictures of the errors against the vertices by file name; none for a single budget."""
+    """Return plots of the errors against the vertices, as SVG by file name; none for a single budget."""
     if len(suite.options.vertices) < 2:
         return {}
     drawn = {}

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""All runs of a suite, one after the other, continued where they were stopped."""
+"""All runs of a suite, one after another, resumable."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ RUNS, MESHES, CLOUDS, SURFACES = "runs", "meshes", "clouds", "surfaces"
 
 
 def sources_of(suite: Suite, where: str) -> list[Source]:
-    """Return the files of as many models as the suite says: of the meshes, or clouds, that `where` names.
+    """Return the files of the models of a suite, as many as it says, out of the meshes or clouds that `where` names.
 
     Raises
     ------
@@ -44,7 +44,7 @@ def sources_of(suite: Suite, where: str) -> list[Source]:
 
 
 def model_of(suite: Suite, source: Source) -> Model:
-    """Return the model in a file, as the suite takes it."""
+    """Return the model in a file: a true surface, or a cloud with points held out, as the suite says."""
     kind = HeldOut if suite.options.truth == HELD_OUT else TrueSurface
     return kind(source, suite.options)
 
@@ -57,25 +57,25 @@ def run_suite(
 ) -> list[Record]:
     """Run a suite on the models that `meshes` names (see ``sources_of``); return every record, also of failures.
 
-    What `folder` holds of an earlier run is kept if nothing it depends on has changed; failures are tried again. It
-    gets ``clouds/`` (the points that every method was given), ``surfaces/`` (what is then reduced), ``meshes/`` and
-    ``runs/``.
+    Results of an earlier run in `folder` are kept if nothing that they depend on has changed; failures are tried
+    again. The folder gets ``clouds/`` (the input of every method), ``surfaces/`` (meshes before their reduction),
+    ``meshes/`` and ``runs/``.
 
     Parameters
     ----------
     log
-        Is given a line about each run.
+        Called with a line about each run.
 
     Raises
     ------
     UnreadableInput
         If there are no models.
     UsageError
-        If the folder cannot be written, or a model lies where results go; if scans are asked for and embreex is not
+        If the folder cannot be written, or a model lies where results go; if scans are requested and embreex is not
         installed.
     """
     if any(given.sample.kind == "scan" for given in suite.inputs):
-        require_embree()  # said once, not of every model
+        require_embree()  # reported once, not for every model
     sources = sources_of(suite, meshes)
     for name in (RUNS, MESHES, CLOUDS, SURFACES):
         check_outside(folder / name, [each.path for each in sources])
@@ -93,7 +93,7 @@ def run_suite(
 
 
 def _runs_of(suite: Suite, model: Model, folder: Path) -> Iterator[tuple[Record, str]]:
-    """Yield the records of a model, and what to say of each."""
+    """Yield the records of a model, each with a line to log."""
     for given in suite.inputs:
         cloud: Cloud | HdpeaError | None = None
         for method in suite.methods:
@@ -112,12 +112,12 @@ def _runs_of(suite: Suite, model: Model, folder: Path) -> Iterator[tuple[Record,
 
 
 def mesh_path(folder: Path, record: Record) -> Path:
-    """Return where the mesh of a run is, in the folder of the results."""
+    """Return the path of the mesh of a run in the folder of the results."""
     return folder / MESHES / record.stem.with_name(record.stem.name + ".ply")
 
 
 def _planned(suite: Suite, model: Model, given: SuiteInput, method: SuiteMethod, vertices: int) -> Record:
-    """Return the record of a run that has not been done."""
+    """Return the record of a run before it is done."""
     file = _file_read(method, model.name, given.name, vertices)
     content = sha256(file.read_bytes()).hexdigest() if file is not None and file.is_file() else None
     of_points = (suite.options.seed, asdict(given), model.content)
@@ -127,7 +127,7 @@ def _planned(suite: Suite, model: Model, given: SuiteInput, method: SuiteMethod,
 
 
 def _file_read(method: SuiteMethod, model: str, given: str, vertices: int) -> Path | None:
-    """Return the file that a method takes what it makes from: the mesh, or the weights of a network."""
+    """Return the file that a method reads besides the points, if any: a finished mesh, or the weights of a network."""
     if method.method == "folder":
         return made_elsewhere(method.options(), model, given, vertices)
     weights = method.values.get("weights")
@@ -135,7 +135,7 @@ def _file_read(method: SuiteMethod, model: str, given: str, vertices: int) -> Pa
 
 
 def _cloud(model: Model, given: SuiteInput, folder: Path) -> Cloud | HdpeaError:
-    """Make the points and write them; if they cannot be had, return why."""
+    """Make the points and write them; if that fails, return the error."""
     try:
         with core_errors_translated():
             cloud = model.cloud(given)
@@ -146,7 +146,7 @@ def _cloud(model: Model, given: SuiteInput, folder: Path) -> Cloud | HdpeaError:
 
 
 def _run(planned: Record, model: Model, cloud: Cloud | HdpeaError, method: SuiteMethod, folder: Path) -> Record:
-    """Run, write the mesh, measure it."""
+    """Run a method, write its mesh and measure it."""
     if isinstance(cloud, HdpeaError):
         return replace(planned, failed=cloud.message)
     surfaces = folder / SURFACES / planned.stem.parent

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Pictures of results: all of a model from the same side, with their edges, and coloured by their error."""
+"""Pictures of the results for a model, from one viewpoint: with edges, and coloured by error."""
 
 from __future__ import annotations
 
@@ -22,28 +22,28 @@ SIZE = (560, 560)
 """Pixels of a picture."""
 
 RED_FROM = LONGEST_SIDE.f1_threshold
-"""Distance to the truth, in longest sides, from which the error map is red: where F1 counts a point as lost."""
+"""Distance to the truth, in longest sides, from which the error map is red: the threshold of F1."""
 
 COLORED_EDGE = 0.004
-"""Longest edge, in longest sides, between two vertices of the error map: error within a triangle shows, too."""
+"""Longest edge of the error map, in longest sides, so that it shows errors inside triangles, too."""
 
 MOST_FACES = 400_000
-"""Of the error map, however large the result is."""
+"""Most faces of the error map."""
 
 ERROR_COLORS = np.array([[244, 244, 240], [253, 218, 120], [240, 120, 50], [165, 15, 21]])
-"""Of errors from 0 to ``RED_FROM``, evenly spaced."""
+"""Colours of errors from 0 to ``RED_FROM``, evenly spaced."""
 
 
 SHOWN_POINTS = 40_000
-"""Of a truth that is points, in its picture: enough to leave no gaps."""
+"""Points drawn of a truth that is a point cloud: enough to leave no gaps."""
 
 LIGHT = np.array([-0.28, 0.41, 0.87])
-"""Where the light comes from as the eye sees it: above, on the left, as on meshes; unit."""
+"""Direction towards the light in view coordinates: above on the left, as for meshes; unit."""
 
 
 @dataclass(frozen=True)
 class Scene(ABC):
-    """The truth, and the camera that looks at it."""
+    """The truth and the camera from which it and all results are drawn."""
 
     camera: Camera
 
@@ -53,7 +53,7 @@ class Scene(ABC):
 
     @abstractmethod
     def draw_error(self, path: Path, mesh: TriangleMesh) -> None:
-        """Draw how far a result is from the truth."""
+        """Draw the error of a result."""
 
     def draw(self, path: Path, mesh: TriangleMesh) -> None:
         """Draw a result with its edges."""
@@ -62,13 +62,13 @@ class Scene(ABC):
 
 @dataclass(frozen=True)
 class SurfaceScene(Scene):
-    """A true surface, to be looked at."""
+    """A scene whose truth is a surface."""
 
     truth: TriangleMesh
 
     @classmethod
     def of(cls, truth: TriangleMesh) -> SurfaceScene:
-        """Look at a surface."""
+        """Place the camera for a surface."""
         return cls(Camera.before(*truth), truth)
 
     def draw_truth(self, path: Path) -> None:
@@ -85,7 +85,7 @@ class SurfaceScene(Scene):
 
 @dataclass(frozen=True)
 class PointScene(Scene):
-    """Points (n, 3) of a surface that is not known, to be looked at; `shown` (m, 3) and `normals` (m, 3) of some."""
+    """A scene whose truth is points (n, 3); `shown` (m, 3), with their `normals` (m, 3), are drawn."""
 
     points: NDArray[np.float64]
     shown: NDArray[np.float64]
@@ -93,7 +93,7 @@ class PointScene(Scene):
 
     @classmethod
     def of(cls, points: NDArray[np.float64], normals: NDArray[np.float64] | None) -> PointScene:
-        """Look at points (n, 3), finite and distinct, and their unit normals (n, 3), 0 where unknown.
+        """Place the camera for points (n, 3), finite and distinct, with unit normals (n, 3), 0 where unknown.
 
         Raises
         ------
@@ -105,7 +105,7 @@ class PointScene(Scene):
         return cls(Camera.before_points(points[rows], oriented), points, points[rows], oriented)
 
     def draw_truth(self, path: Path) -> None:
-        """Draw the truth as points, shaded as a mesh is."""
+        """Draw the truth as points, shaded like a mesh."""
         draw_points(path, self.shown, shades(self.normals @ self.camera.view_from_world.T), SIZE, self.camera)
 
     def draw_error(self, path: Path, mesh: TriangleMesh) -> None:
@@ -116,12 +116,12 @@ class PointScene(Scene):
 
 
 def shades(normals_in_view: NDArray[np.float64]) -> NDArray[np.uint8]:
-    """Return a grey (n, 3) for each normal (n, 3), x to the right, y up, z towards the eye, whichever side shows."""
+    """Return greys (n, 3) for normals (n, 3) of either sign in view coordinates: x right, y up, z towards the eye."""
     return as_bytes(np.tile(0.3 + 0.6 * abs(normals_in_view @ LIGHT)[:, None], 3))
 
 
 def error_colors(distances: NDArray[np.float64]) -> NDArray[np.uint8]:
-    """Return distances (n,), in longest sides, as colours (n, 3)."""
+    """Return the colours (n, 3) of distances (n,), in longest sides."""
     places = np.linspace(0, RED_FROM, len(ERROR_COLORS))
     channels = [np.interp(distances, places, channel) for channel in ERROR_COLORS.T]
     colors: NDArray[np.uint8] = np.rint(np.stack(channels, axis=1)).astype(np.uint8)
@@ -129,9 +129,9 @@ def error_colors(distances: NDArray[np.float64]) -> NDArray[np.uint8]:
 
 
 def subdivided(vertices: NDArray[np.float64], faces: NDArray[np.int64], longest_edge: float) -> TriangleMesh:
-    """Cut each triangle into n^2 alike ones, n such that edges get no longer than that, but for ``MOST_FACES``.
+    """Cut each triangle into n^2 similar ones, with n such that no edge is longer, within ``MOST_FACES``.
 
-    Triangles share no vertices.
+    The given triangles share no vertices in the result.
     """
     corners = vertices[faces]
     edges = np.linalg.norm(np.roll(corners, -1, axis=1) - corners, axis=2).max(axis=1)

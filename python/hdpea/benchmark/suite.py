@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A suite: which models, what is made of them, which methods, how many vertices; which ``suite_file`` reads."""
+"""A suite: models, inputs made from them, methods, numbers of vertices. ``suite_file`` reads it."""
 
 from __future__ import annotations
 
@@ -20,30 +20,30 @@ MESH, HELD_OUT = "mesh", "held_out"
 
 @dataclass(frozen=True)
 class SuiteOptions(Checked):
-    """What a suite says about all its runs."""
+    """The options common to all runs of a suite."""
 
-    title: str = option("", "what it is, in a line")
-    meshes: str = option("", "folder of the models, from where the suite lies; those that a run is given win over it")
+    title: str = option("", "title, in a line")
+    meshes: str = option("", "folder of the models, relative to the suite; those that a run is given take precedence")
     truth: str = option(
         MESH,
-        "mesh: models are true surfaces; held_out: they are clouds, half of which no method is given and is the truth",
+        "mesh: models are true surfaces; held_out: they are clouds, half of whose points are held out as the truth",
         choices=(MESH, HELD_OUT),
     )
-    models: int = option(0, "how many of them, evenly over their names; 0: all", minimum=0)
+    models: int = option(0, "number of models, evenly over their names; 0: all", minimum=0)
     points: int = option(
         40_000,
-        "points of each input that does not say otherwise, before any are taken away; of a cloud, at most half",
+        "points of each input that has no number of its own, before any are removed; of a cloud, at most half",
         minimum=100,
     )
-    vertices: tuple[int, ...] = option((5_000,), "vertices wanted, one or several numbers")
-    samples: int = option(EvaluationOptions().samples, "points drawn of each surface to measure a result", minimum=1)
-    time_limit: float = option(600.0, "seconds after which a run is given up", minimum=0)
-    pictures: int = option(4, "how many models are drawn, evenly over their names", minimum=0)
-    rendered: bool = option(False, "compare pictures under one light with the truth's, too: PSNR and SSIM")
+    vertices: tuple[int, ...] = option((5_000,), "numbers of vertices wanted, one or more")
+    samples: int = option(EvaluationOptions().samples, "points drawn from each surface to evaluate a result", minimum=1)
+    time_limit: float = option(600.0, "seconds after which a run is abandoned", minimum=0)
+    pictures: int = option(4, "number of models that are drawn, evenly over their names", minimum=0)
+    rendered: bool = option(False, "also compare renderings with those of the truth: PSNR and SSIM")
     seed: int = option(0, "seed of the points", minimum=0)
     normalization: str = option(
         LONGEST_SIDE.name,
-        "unit of the tables; results.csv has both",
+        "unit of the tables; results.csv has both units",
         choices=tuple(each.name for each in NORMALIZATIONS),
     )
 
@@ -59,9 +59,9 @@ class SuiteOptions(Checked):
 
 @dataclass(frozen=True)
 class SuiteInput:
-    """A way to make points of a model: the kind of the sample, the scan if it is one, and what is done to it then.
+    """How the points of a model are made: the kind of sample, the scan if it is one, and the degradation.
 
-    The number of points is that of `scan`, whatever the kind.
+    The number of points is that of `scan` for every kind.
     """
 
     name: str
@@ -72,7 +72,7 @@ class SuiteInput:
 
 @dataclass(frozen=True)
 class SuiteMethod:
-    """A method under a name of its own, with its options as the suite has them."""
+    """A method under a name of its own, with its options as written in the suite."""
 
     name: str
     method: str
@@ -85,7 +85,7 @@ class SuiteMethod:
 
 @dataclass(frozen=True)
 class Quoted:
-    """Scores that somebody else published, on data of their own: CD in 1e-5, HD in 1e-2, time in seconds."""
+    """Scores published elsewhere, on other data: CD in 1e-5, HD in 1e-2, time in seconds."""
 
     name: str
     source: str
@@ -100,7 +100,7 @@ class Quoted:
 
 @dataclass(frozen=True)
 class Suite:
-    """Everything a suite says."""
+    """The content of a suite."""
 
     name: str
     options: SuiteOptions
@@ -119,5 +119,5 @@ class Suite:
 
     @property
     def meshes(self) -> str:
-        """Where the models are; empty if the suite does not say."""
+        """The folder of the models; empty if the suite names none."""
         return str(self.folder / self.options.meshes) if self.options.meshes else ""

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Suites from TOML: those that come with hdpea, and others."""
+"""Reading of suites from TOML: those included in hdpea, and others."""
 
 from __future__ import annotations
 
@@ -17,11 +17,11 @@ from hdpea.errors import UnreadableInput, UsageError
 from hdpea.reading import read_bytes
 
 FROM_THE_SUITE = {"folder", "path", "weights"}
-"""Options of methods that name files from where the suite lies, as it names the folder of the meshes."""
+"""Options of methods that are paths relative to the suite, like its folder of meshes."""
 
 
 def shipped_suites() -> list[str]:
-    """Return the names of the suites that come with hdpea."""
+    """Return the names of the suites that are included in hdpea."""
     return sorted(each.name.removesuffix(".toml") for each in _shipped().iterdir() if each.name.endswith(".toml"))
 
 
@@ -30,14 +30,14 @@ def _shipped() -> Any:
 
 
 def read_suite(name: str, only: Sequence[str] = (), models: int | None = None) -> Suite:
-    """Read a suite: one that comes with hdpea, by its name, or a TOML file.
+    """Read a suite: one included in hdpea, by its name, or a TOML file.
 
     Parameters
     ----------
     only
         Names of the methods to take; empty for all.
     models
-        How many models to take, whatever the suite says.
+        Number of models, in place of that of the suite.
 
     Raises
     ------
@@ -92,7 +92,7 @@ def _input(table: dict[str, Any], options: SuiteOptions) -> SuiteInput:
 
 
 def _chosen(tables: Sequence[dict[str, Any]], only: Sequence[str], suite: str) -> list[dict[str, Any]]:
-    """Return the tables of these methods, before their libraries are looked for."""
+    """Return the tables of these methods, before their libraries are required."""
     names = [str(each.get("name", each.get("method"))) for each in tables]
     for wanted in only:
         if wanted not in names:
@@ -108,7 +108,7 @@ def _method(table: dict[str, Any], folder: Path) -> SuiteMethod:
         table[key] = str(folder / str(table[key]))
     name = str(table.pop("name", method))
     made = SuiteMethod(name, method, table)
-    made.options()  # what is wrong with it is said before the first run
+    made.options()  # errors are reported before the first run
     return made
 
 
@@ -119,7 +119,7 @@ def _name(table: dict[str, Any], where: str) -> str:
 
 
 def _known(table: Mapping[str, Any], owner: type[Any], where: str, without: Collection[str] = ()) -> dict[str, Any]:
-    """Return the table, all of whose keys are fields of the class `owner`."""
+    """Return the table after checking that its keys and types are those of the fields of `owner`."""
     names = [each.name for each in fields(owner) if each.name not in without]
     for key, value in table.items():
         if key not in names:

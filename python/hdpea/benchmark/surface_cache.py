@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Surfaces of many vertices, made once for all reductions and sizes; what they took counts for each of these."""
+"""Surfaces before their reduction, made once for all reductions and sizes; their cost counts for each of these."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from hdpea.version import version
 
 
 def cached_surface(cloud: Cloud, method: str, options: Any, folder: Path) -> MeasuredMesh:
-    """Return what a method makes of a cloud before anything is reduced: from `folder`, or else made and put there."""
+    """Return the surface that a method makes of a cloud before its reduction, from `folder` if it is there already."""
     settings = {name: value for name, value in asdict(options).items() if name != "reduce"}
     given = sha256(cloud.points.tobytes() + cloud.normals.tobytes()).hexdigest()
     key = key_of(version(), given, method, settings)
@@ -41,7 +41,7 @@ def cached_surface(cloud: Cloud, method: str, options: Any, folder: Path) -> Mea
 
 
 def _read(path: Path) -> MeasuredMesh | None:
-    """Read a surface; None if it is not there whole."""
+    """Read a surface; None if it is missing or damaged."""
     try:
         with path.open("rb") as file, np.load(file) as arrays:
             seconds, cpu_seconds, peak_bytes = arrays["took"].tolist()

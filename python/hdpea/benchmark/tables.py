@@ -21,7 +21,7 @@ def markdown_table(means: Sequence[Means]) -> str:
 
 
 def cells_of(means: Sequence[Means]) -> tuple[list[str], list[list[tuple[str, bool]]]]:
-    """Return the titles, and each row's cells and whether they are the best; columns without a value are left out."""
+    """Return the titles, and each row's cells and whether they are the best; columns without values are left out."""
     best = best_of(means)
     shown = [i for i in range(len(COLUMNS)) if any(row.values[i] is not None for row in means)]
     rows = []
@@ -57,7 +57,7 @@ def _markdown(titles: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
 
 
 def write_csv(path: Path, records: Sequence[Record]) -> None:
-    """Write every run with every score, all digits, lengths unscaled, a column for each path to a score."""
+    """Write all scores of all runs in full precision, lengths unscaled, one column for each path to a score."""
     rows = [
         {
             "input": each.given,

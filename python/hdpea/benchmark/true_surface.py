@@ -20,7 +20,7 @@ from hdpea.reading.triangle_mesh import TriangleMesh
 
 @dataclass
 class TrueSurface(Model):
-    """A true mesh; points are drawn of it, or it is scanned."""
+    """A true mesh, which is sampled or scanned."""
 
     @cached_property
     def surface(self) -> TriangleMesh:
@@ -29,19 +29,19 @@ class TrueSurface(Model):
 
     @cached_property
     def truth(self) -> Truth:
-        """The surface as results are measured against it."""
+        """The surface, prepared for the evaluation of results."""
         return truth_of_mesh(*self.surface, self.measuring)
 
     def cloud(self, given: SuiteInput) -> Cloud:
-        """Draw points of the surface, or scan it; with true normals, unless they are to be estimated."""
+        """Sample the surface, or scan it; with true normals unless the input asks for estimated ones."""
         return make_cloud(self.surface, self.name, given, self.options.seed)
 
     def scene(self) -> Scene:
-        """Return the surface, to be drawn."""
+        """Return the scene of the surface."""
         return SurfaceScene.of(self.surface)
 
     def scores(self, mesh: TriangleMesh) -> dict[str, Any]:
-        """Measure a result; if the suite asks for it, by pictures under one light, too."""
+        """Return the scores of a result, including those of renderings if the suite asks for them."""
         scores = super().scores(mesh)
         if self.options.rendered:
             scores["rendering"] = compare_renderings(self.surface, mesh)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Which method is the nearest to the truth on which model: means hide on how many of them a method loses."""
+"""Which method has the smallest error on which models, which means do not show."""
 
 from __future__ import annotations
 
@@ -9,19 +9,19 @@ from hdpea.benchmark.record import Record
 from hdpea.benchmark.suite import Suite
 
 NAMED = 8
-"""Models that are named; of more, the number is told."""
+"""Most models that are named; of more, only the number is given."""
 
 ERRORS = {"exact CD": "chamfer", "exact HD": "hausdorff"}
-"""Errors of which it is told, by their titles: the names of their scores."""
+"""Errors that are compared: title, and path to the score."""
 
 ERRORS_OF_POINTS = {"exact rms": "to_result.rms", "CD": "samples.chamfer"}
-"""The same where the truth is only points: the way back, from the result, is known between samples alone."""
+"""The same where the truth is a point cloud, to which there are no exact distances from the result."""
 
 
 def winner_sentences(records: Sequence[Record], suite: Suite, given: str, vertices: int) -> str:
-    """Return who has the smallest errors on which models; empty unless several methods made a mesh of one.
+    """Return sentences on which method has the smallest errors on which models; empty unless two methods finished.
 
-    Of equals, the first in the suite is named.
+    Among equals, the first in the suite is named.
     """
     here = [each for each in records if (each.given, each.vertices) == (given, vertices) and not each.failed]
     if len({each.method for each in here}) < 2:

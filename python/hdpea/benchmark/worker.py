@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""One method on one cloud, in a process of its own."""
+"""A method run on a cloud, in a process of its own."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ from hdpea.runtime.processes import Outcome, run_isolated
 
 @dataclass(frozen=True)
 class Task:
-    """What the process needs to know; `surfaces` is the folder that keeps what methods share of their work."""
+    """What the process needs; `surfaces` is the folder of the surfaces that several reductions share."""
 
     cloud: Cloud
     method: str
@@ -32,17 +32,17 @@ class Task:
 
 
 def run_method_isolated(task: Task, time_limit: float) -> Outcome[MeasuredMesh]:
-    """Run a method in a fresh process: its crash, its memory and its time are its own."""
+    """Run a method in a fresh process, so that crashes, memory and time are its own."""
     return next(run_isolated(run_method, [task], jobs=1, time_limit=time_limit))
 
 
 def run_method(task: Task) -> MeasuredMesh:
-    """Run a method in this process; what it takes is counted from when its libraries are loaded.
+    """Run a method in this process; the cost is measured after its libraries have been loaded.
 
     Raises
     ------
     CannotReconstruct
-        If it makes no triangle.
+        If the result has no triangles.
     """
     options = method_options(task.method, task.values)
     method = METHODS[task.method]

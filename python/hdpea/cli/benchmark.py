@@ -34,12 +34,12 @@ Exit codes: 0 ok, 2 usage or a library is missing, 3 no such suite or meshes,
     multiple=True,
     help="only this one of the suite; may be repeated",
 )
-@click.option("--models", cls=GroupedOption, type=int, help="how many, evenly over their names; 0: all")
+@click.option("--models", cls=GroupedOption, type=int, help="number of models, evenly over their names; 0: all")
 @quiet_option
 def command(
     *, suite: str, output: Path, meshes: str | None, methods: tuple[str, ...], models: int | None, quiet: bool
 ) -> None:
-    """Run the methods of SUITE on points of true meshes, measure what they make, and compare it in OUT.
+    """Run the methods of SUITE on points of true meshes, and evaluate and compare the results in OUT.
 
     SUITE is quick, sampling, scans, robustness, normals, points, sizes, two_stage, roughness, large,
     pmei, rooms (real clouds, half of whose points are held out as the truth) or failure, or a TOML
@@ -47,8 +47,8 @@ def command(
     vertices. OUT gets results.csv, results.md, index.html with all tables and pictures in it, and
     the points and meshes themselves.
 
-    Each run has a process and a time limit of its own. What was finished before is kept: the same
-    command continues a suite that was stopped. Rivals need pip install 'hdpea[benchmark]'.
+    Each run has a process and a time limit of its own. Finished runs are kept: the same
+    command resumes a suite that was stopped. Other methods need pip install 'hdpea[benchmark]'.
     """
     from hdpea.benchmark.gallery import draw_gallery
     from hdpea.benchmark.results import write_results

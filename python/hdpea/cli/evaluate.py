@@ -20,14 +20,14 @@ Examples:
 
 \b
 The scores:
-  CD  mean squared distance one way plus that the other way; smaller is better
-  F1  share of points found, both ways, within a distance; 1 is best
-  NC  mean |n.n'| of nearest points, both ways; 1 is best
-  HD  largest distance of either way; smaller is better
-  G   how equilateral the triangles are under the truth's curvature; 1 is best
-Between samples, CD, F1, NC and HD end at their floor: the scores of the truth
+  CD  sum of the mean squared distances in both directions; smaller is better
+  F1  share of points within a distance, in both directions; 1 is best
+  NC  mean |n.n'| of nearest points, in both directions; 1 is best
+  HD  largest distance in either direction; smaller is better
+  G   quality of the triangles under the truth's curvature; 1 is best
+Between samples, CD, F1, NC and HD are limited by a floor: the scores of the truth
 against itself. Exact distances, from samples to the other surface, have none;
-the largest is over the vertices, too.
+the largest includes the vertices.
 
 \b
 Exit codes: 0 ok, 2 usage, 3 unreadable input, 4 a surface without extent.
@@ -42,8 +42,8 @@ Exit codes: 0 ok, 2 usage, 3 unreadable input, 4 a surface without extent.
 def command(result: Path, truth: Path, as_json: bool, **values: Any) -> None:
     """Measure the mesh RESULT against the true surface TRUTH, in the same units and frame.
 
-    RESULT is PLY, OBJ, STL, OFF or GLB; TRUTH is such a mesh, or a point cloud, of which less can
-    be said. Lengths are given twice: as shares of the longest side of the truth's bounding box, as
+    RESULT is PLY, OBJ, STL, OFF or GLB; TRUTH is such a mesh, or a point cloud, which gives fewer
+    scores. Lengths are given twice: as shares of the longest side of the truth's bounding box, as
     in the papers of NDC and PoNQ, and of its diagonal, as in that of NASM.
     """
     from hdpea.evaluation.evaluation import evaluate

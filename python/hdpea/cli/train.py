@@ -17,7 +17,7 @@ from hdpea.training.options import PRESETS, TrainingOptions
 EPILOG = """\b
 Examples:
   hdpea train dataset/ training/ --validation validation/
-  hdpea train dataset/ training/ --steps 100000     # goes on where it was stopped
+  hdpea train dataset/ training/ --steps 100000     # resumes where it was stopped
   torchrun --nproc-per-node 2 -m hdpea train dataset/ training/ --batch 2
 """
 
@@ -35,13 +35,13 @@ def _use_preset(ctx: click.Context, _: click.Parameter, name: str) -> str:
     cls=GroupedOption,
     type=PATH,
     multiple=True,
-    help="a further dataset to train on, such as one of scans; may be given again",
+    help="a further dataset to train on, such as one of scans; may be repeated",
 )
 @click.option(
     "--validation",
     cls=GroupedOption,
     type=PATH,
-    help="dataset of which clouds are reconstructed every so often, to keep the best weights",
+    help="dataset whose clouds are reconstructed at intervals, to keep the best weights",
 )
 @click.option(
     "--network",
@@ -49,7 +49,7 @@ def _use_preset(ctx: click.Context, _: click.Parameter, name: str) -> str:
     type=click.Choice(list(CONFIGURATIONS)),
     default="compact",
     show_default=True,
-    help="size of the network; base is the paper's",
+    help="size of the network; base is HD-PEA's",
 )
 @click.option(
     "--preset",
@@ -60,9 +60,9 @@ def _use_preset(ctx: click.Context, _: click.Parameter, name: str) -> str:
     is_eager=True,
     expose_value=False,
     callback=_use_preset,
-    help="defaults of the flags below, shown for cpu; paper: the paper's",
+    help="defaults of the flags below, shown for cpu; paper: as in the HD-PEA paper",
 )
-@click.option("--tensorboard", cls=GroupedOption, is_flag=True, help="write for TensorBoard too, where it is installed")
+@click.option("--tensorboard", cls=GroupedOption, is_flag=True, help="also write for TensorBoard, if it is installed")
 @quiet_option
 @setting_options("run", "crops", "loss", owner=TrainingOptions)
 @click.pass_context
@@ -81,7 +81,7 @@ def command(
 ) -> None:
     """Train a network on DATASET, a folder that `hdpea dataset build` made, into the folder OUT.
 
-    OUT gets last.pt, from which the same command goes on where it was stopped, best.pt and best.safetensors with
+    OUT gets last.pt, from which the same command resumes, best.pt and best.safetensors with
     the weights that reconstructed the validation clouds best, and metrics.jsonl. Ctrl-C saves and stops.
 
     best.safetensors is what `hdpea reconstruct --embedding learned --weights` takes.

@@ -11,13 +11,14 @@ from numpy.typing import NDArray
 from hdpea import _core
 from hdpea.curvature.tensors import CurvatureTensors
 from hdpea.errors import core_errors_translated
+from hdpea.geometry.tensors import frames
 from hdpea.geometry.unit_frame import UnitFrame
 from hdpea.pictures.colors import Colors, ratio_colors
 
 Rows = NDArray[np.float64]
 
 CANDIDATES = 50_000
-"""Points among which glyphs are placed: enough for any picture, and quickly looked through."""
+"""Most points that glyphs are chosen from: enough for any picture, and fast."""
 
 FILLING = 0.5
 """Radius of a round glyph in distances of neighbouring glyphs: they just touch."""
@@ -29,7 +30,7 @@ PLATE = 2.0
 """Radius, in radii of round glyphs, of the disk below each glyph that hides what lies behind the surface."""
 
 LONGEST = 2.5
-"""Half length of the longest glyph in the same radii: the colour tells what the shape does not."""
+"""Half length of the longest glyph in the same radii: beyond it, only the colour shows the ratio."""
 
 REDDEST = 95
 """Percentile of the ratios, where determined, from which the colour is red; but at least ``LEAST_RED``."""
@@ -88,11 +89,10 @@ def glyphs_of(tensors: CurvatureTensors, count: int) -> Glyphs:
     length = np.sqrt(ratio).clip(max=LONGEST)
     direction1 = np.where(determined[:, None], tensors.direction1[chosen], _tangents(normals))
     half_axes = radius * np.column_stack([1 / length, length, np.full(len(chosen), THICKNESS)])
-    frames = np.stack([direction1, np.cross(normals, direction1), normals], axis=1)
     most = max(LEAST_RED, float(np.percentile(ratio[determined], REDDEST))) if determined.any() else LEAST_RED
     colored = ratio_colors(ratio, most)
     colors = np.where(determined[:, None], colored, np.rint(255 * np.array(UNDETERMINED))).astype(np.uint8)
-    return Glyphs(centres, normals, half_axes[:, :, None] * frames, colors, most, radius, frame)
+    return Glyphs(centres, normals, half_axes[:, :, None] * frames(normals, direction1), colors, most, radius, frame)
 
 
 def _tangents(normals: Rows) -> Rows:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Samples turned and mirrored: other points, the same psi."""
+"""Augmentation: samples rotated and mirrored, psi unchanged."""
 
 from __future__ import annotations
 
@@ -36,13 +36,13 @@ TRANSFORMS: dict[str, NDArray[np.float64]] = {
     "mirrored_xz": _mirroring(1),
     "mirrored_yz": _mirroring(0),
 }
-"""The ten of the paper ("Data Augmentation", after NASM), by name: new = matrix @ old."""
+"""The ten transforms of the HD-PEA paper, appendix F (after NASM), by name: new = matrix @ old."""
 
 
 def random_rotation(seed: int | np.random.Generator) -> NDArray[np.float64]:
-    """Return a rotation (3, 3), all equally likely (Mezzadri, How to generate random matrices, 2007)."""
+    """Return a uniformly random rotation (3, 3) (Mezzadri, How to generate random matrices, 2007)."""
     orthogonal, triangular = np.linalg.qr(np.random.default_rng(seed).standard_normal((3, 3)))
-    orthogonal *= np.sign(np.diag(triangular))  # makes the factors unique, hence no direction favoured
+    orthogonal *= np.sign(np.diag(triangular))  # makes the factors unique, so that no direction is preferred
     orthogonal[:, 0] *= np.sign(np.linalg.det(orthogonal))
     return orthogonal
 
@@ -50,11 +50,11 @@ def random_rotation(seed: int | np.random.Generator) -> NDArray[np.float64]:
 def augmented(sample: Sample, matrix: NDArray[np.float64]) -> Sample:
     """Return the sample of the surface transformed by an orthogonal matrix (3, 3) about the origin of its unit frame.
 
-    Lengths do not change, so neither do psi and the curvatures. Outward normals stay outward, mirrored or not, because
-    the transformed surface is what they are normal to; the second direction, normal x direction1, changes its sign
-    where mirrored, which says nothing. The frame is kept: it puts the transformed surface where the original was,
-    turned about the middle of its box. After a quarter turn or a mirroring it is the unit frame of that surface too;
-    after any other rotation its box has another diagonal than 1, while lengths are still shares of the original's.
+    Lengths do not change, and neither do psi and the curvatures. Outward normals stay outward, mirrored or not, since
+    they are normals of the transformed surface; the second direction, normal x direction1, changes its sign when
+    mirrored, which is immaterial. The frame is kept: it places the transformed surface where the original was,
+    rotated about the middle of its box. After a quarter turn or a reflection it is also the unit frame of that
+    surface; after any other rotation the diagonal of its box is not 1, and lengths remain shares of the original's.
 
     Raises
     ------
@@ -62,7 +62,7 @@ def augmented(sample: Sample, matrix: NDArray[np.float64]) -> Sample:
         If the matrix is not orthogonal.
     """
     if matrix.shape != (3, 3) or not np.allclose(matrix @ matrix.T, np.eye(3), atol=1e-9):
-        raise UsageError("A sample can be transformed by an orthogonal matrix (3, 3) only.")
+        raise UsageError("A sample can be transformed only by an orthogonal matrix (3, 3).")
 
     def transformed(rows: NDArray[np.float32]) -> NDArray[np.float32]:
         return (rows @ matrix.T).astype(np.float32)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A dataset of many meshes: built in parallel, continued where it was stopped, whatever single meshes do."""
+"""Building a dataset of many meshes: in parallel, resumable, and whatever happens to single meshes."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ SAMPLES = "samples"
 
 @dataclass(frozen=True)
 class Task:
-    """What a process needs to know to make the samples of one mesh."""
+    """What a worker process needs to make the samples of one mesh."""
 
     source: Source
     options: DatasetOptions
@@ -46,7 +46,7 @@ class Task:
 
 @dataclass(frozen=True)
 class EncodedSample:
-    """The file of a sample, and the augmentation it holds, if any."""
+    """The content of the file of a sample, and the augmentation applied to it, if any."""
 
     augmentation: str | None
     points: int
@@ -55,7 +55,7 @@ class EncodedSample:
 
 @dataclass(frozen=True)
 class BuildResult:
-    """What a build came to: the manifest, and how many of its meshes were `kept` from an earlier run."""
+    """The result of a build: its manifest, and how many of its meshes were `kept` from an earlier run."""
 
     manifest: Manifest
     kept: int
@@ -68,16 +68,16 @@ def build_dataset(
     options: DatasetOptions | None = None,
     log: Callable[[str], None] = lambda _: None,
 ) -> BuildResult:
-    """Build the dataset of the meshes that `where` names (see ``find_meshes``) in `folder`, or continue to.
+    """Build the dataset of the meshes that `where` names (see ``find_meshes``) in `folder`, or resume doing so.
 
     A mesh that cannot be used is skipped, and the manifest says why. What an earlier run with the same options
-    finished is kept. The bytes depend on the meshes, the options and the version only; not on the number of jobs,
-    nor on whether a run was killed in between.
+    finished is kept. The bytes depend only on the meshes, the options and the version; not on the number of jobs,
+    nor on whether a run was killed and resumed.
 
     Parameters
     ----------
     log
-        Is given a line about each mesh.
+        Called with a line about each mesh.
 
     Raises
     ------
@@ -85,13 +85,13 @@ def build_dataset(
         If there are no meshes.
     UsageError
         If `folder` cannot be written, or holds anything but a dataset of these meshes and options; if a mesh lies
-        where the samples go; if scans are asked for and embreex is not installed.
+        where the samples go; if scans are requested and embreex is not installed.
     QualityMissed
-        If not one mesh could be used.
+        If no mesh could be used.
     """
     started, options = time.perf_counter(), options or DatasetOptions()
     if options.sample.kind == "scan":
-        require_embree()  # said once, not of every mesh
+        require_embree()  # reported once, not for every mesh
     sources = find_meshes(where)
     check_outside(folder / SAMPLES, [each.path for each in sources])
     manifest = Manifest(version(), options_for_manifest(options))
@@ -120,19 +120,19 @@ def build_dataset(
 
 
 def seed_of(name: str, seed: int) -> int:
-    """Return the seed of a mesh, which depends on nothing but its name and the dataset's seed."""
+    """Return the seed of a mesh, which depends only on its name and the dataset's seed."""
     return zlib.crc32(f"{seed}:{name}".encode())
 
 
 def make_samples(task: Task) -> list[EncodedSample]:
-    """Return the samples of a mesh: one, or all ten augmentations if they are to be written.
+    """Return the encoded samples of a mesh: one, or all ten augmentations if the options ask for them.
 
     Raises
     ------
     UnreadableInput
         If the mesh cannot be read.
     CannotReconstruct
-        If it is not the closed surface of something, or cannot be embedded.
+        If it is not a closed surface, or cannot be embedded.
     """
     from hdpea import _core
 
@@ -150,11 +150,11 @@ def make_samples(task: Task) -> list[EncodedSample]:
 
 
 def _entry(folder: Path, task: Task, outcome: Outcome[list[EncodedSample]]) -> MeshEntry:
-    """Write the samples of a mesh, and return what the manifest says of it."""
+    """Write the samples of a mesh, and return its entry in the manifest."""
     source = task.source
     entry = MeshEntry(source.name, source.source, source.origin, source.licence, source.sha256(), task.seed)
     if outcome.result is None:
-        # Two builds of the same meshes say the same, wherever these lie.
+        # The manifest must not depend on where the meshes are.
         return replace(entry, skipped=outcome.failed.replace(str(source.path), source.source))
     return replace(entry, samples=tuple(_written(folder, source.name, made) for made in outcome.result))
 

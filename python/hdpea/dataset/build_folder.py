@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The folder of a dataset: what it may hold before a build, and what of it can be kept."""
+"""The output folder of a build: what it may contain beforehand, and what of it can be kept."""
 
 from __future__ import annotations
 
@@ -16,15 +16,15 @@ _HALF_WRITTEN = re.compile(r"\..+\.\d+\.(npz|json|md)")
 
 
 def open_folder(folder: Path, manifest: Manifest, sources: Sequence[Source]) -> dict[str, MeshEntry]:
-    """Make `folder` ready for the dataset of `manifest`; return what an earlier run finished, by name of the mesh.
+    """Prepare `folder` for the dataset of `manifest`; return what an earlier run finished, by name of the mesh.
 
-    Finished is a mesh whose file is the same as then, and whose samples are whole. What a killed run left
-    half-written is removed.
+    A mesh is finished if its file is unchanged and its samples are complete. Partial files of a killed run are
+    removed.
 
     Raises
     ------
     UsageError
-        If the folder cannot be made or written, or holds something else.
+        If the folder cannot be created or written, or contains something else.
     """
     try:
         folder.mkdir(parents=True, exist_ok=True)

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Samples made worse: noise, outliers, uneven density, missing parts, wrong normals; the functions compose.
+"""Degradation of samples: noise, outliers, uneven density, missing parts, wrong normals; the functions compose.
 
-What changes the points drops their estimated normals, which were estimated from other points: estimate anew
-afterwards. What removes points leaves fewer of them: where a number is wanted, sample more first.
+Functions that change the points drop the estimated normals, which belong to other points: estimate them again
+afterwards. Functions that remove points leave fewer: sample more first where a certain number is needed.
 """
 
 from __future__ import annotations
@@ -21,19 +21,19 @@ from hdpea.dataset.sample import Sample
 from hdpea.errors import UsageError, core_errors_translated
 
 SPARSE = 0.1
-"""Share of the points that stays where a density is lowest."""
+"""Share of the points that are kept where the density is lowest."""
 
 STRIPES = 8
-"""Stripes along the longest axis, dense and sparse in turn."""
+"""Number of stripes along the longest axis, alternately dense and sparse."""
 
 OUTLIER_BOX = 1.2
-"""Size of the box in which outliers lie, in that of the points."""
+"""Size of the box in which outliers lie, relative to the bounding box of the points."""
 
 
 def degraded(sample: Sample, options: DegradationOptions) -> Sample:
-    """Return the sample with all that the options name done to it: first what removes points, then what moves them.
+    """Apply all degradations that the options ask for: first those that remove points, then those that move them.
 
-    Each draws from a stream of its own, so adding one degradation does not change what another one draws.
+    Each has a random stream of its own, so adding one degradation does not change the random numbers of another.
 
     Raises
     ------
@@ -50,20 +50,20 @@ def degraded(sample: Sample, options: DegradationOptions) -> Sample:
         (options.normal_noise, lambda given: with_normal_noise(given, options.normal_noise, tilts)),
         (options.flipped, lambda given: with_flipped_normals(given, options.flipped, flips)),
     ]
-    for asked, step in steps:
-        sample = step(sample) if asked else sample
+    for wanted, step in steps:
+        sample = step(sample) if wanted else sample
     return sample
 
 
 def clipped(sample: Sample, rng: np.random.Generator) -> Sample:
-    """Return the points on one side of a plane through their mean, of a random direction."""
+    """Keep the points on one side of a randomly oriented plane through their mean."""
     direction = random_rotation(rng)[0]
     height = sample.surface_points @ direction
     return _kept(sample, height >= height.mean())
 
 
 def with_missing(sample: Sample, count: int, radius: float, rng: np.random.Generator) -> Sample:
-    """Return the points outside `count` balls around random points of the surface."""
+    """Keep the points outside `count` balls around random points of the surface."""
     kept = np.ones(len(sample.points), dtype=np.bool_)
     for centre in sample.surface_points[rng.integers(len(kept), size=count)]:
         kept &= np.linalg.norm(sample.surface_points - centre, axis=1) > radius
@@ -71,31 +71,31 @@ def with_missing(sample: Sample, count: int, radius: float, rng: np.random.Gener
 
 
 def thinned(sample: Sample, density: str, rng: np.random.Generator) -> Sample:
-    """Return points unevenly dense along the longest axis, after PCPNet (Guerrero et al., 2018); its strength is ours.
+    """Thin the points unevenly along the longest axis, after PCPNet (Guerrero et al., 2018), with our own strength.
 
-    ``gradient``: the share that stays falls linearly from 1 at one end to ``SPARSE`` at the other. ``striped``: it is
-    1 and ``SPARSE`` in turn, in stripes of the same width.
+    ``gradient``: the share that is kept falls linearly from 1 at one end to ``SPARSE`` at the other. ``striped``: it
+    is alternately 1 and ``SPARSE``, in stripes of equal width.
     """
     share = _along_longest_axis(sample.surface_points)
     if density == "gradient":
-        stays = 1 - (1 - SPARSE) * share
+        share_kept = 1 - (1 - SPARSE) * share
     else:
-        stripe = np.minimum(share * STRIPES, STRIPES - 1).astype(np.int64)  # the far end belongs to the last one
-        stays = np.where(stripe % 2 == 0, 1.0, SPARSE)
-    return _kept(sample, rng.random(len(share)) < stays)
+        stripe = np.minimum(share * STRIPES, STRIPES - 1).astype(np.int64)  # the far end belongs to the last stripe
+        share_kept = np.where(stripe % 2 == 0, 1.0, SPARSE)
+    return _kept(sample, rng.random(len(share)) < share_kept)
 
 
 def with_noise(sample: Sample, std: float, rng: np.random.Generator) -> Sample:
-    """Return the points with Gaussian noise on each coordinate, its std a share of the bounding-box diagonal."""
+    """Add Gaussian noise to each coordinate of the points; its std is a share of the bounding-box diagonal."""
     noise = std * rng.standard_normal(sample.points.shape)
     return replace(sample, points=(sample.points + noise).astype(np.float32), estimated_normals=None)
 
 
 def with_outliers(sample: Sample, share: float, rng: np.random.Generator) -> Sample:
-    """Return the sample with a share of its points moved to anywhere in a box around all of them.
+    """Move a share of the points to random places in a box around all of them.
 
-    An outlier stands for the point of the surface nearest to it, and has the truth of that; its sensor stays. Nothing
-    but its distance from there marks it.
+    The truth of an outlier is that of the point of the surface nearest to it; its sensor is kept. Only its distance
+    from the surface marks it as an outlier.
     """
     count = len(sample.points)
     chosen = rng.choice(count, round(share * count), replace=False)
@@ -111,9 +111,9 @@ def with_outliers(sample: Sample, share: float, rng: np.random.Generator) -> Sam
 
 
 def with_normal_noise(sample: Sample, std: float, rng: np.random.Generator) -> Sample:
-    """Return the sample with Gaussian noise on each component of the normals that a method is given, renormalised.
+    """Add Gaussian noise to each component of the normals that a method is given, and normalise them again.
 
-    These are the estimated normals, or a copy of the true ones where there are none; the truth itself stays.
+    These are the estimated normals, or a copy of the true ones where there are none; the truth itself is kept.
     """
     given = _given_normals(sample)
     noisy = given + std * rng.standard_normal(given.shape)
@@ -122,11 +122,11 @@ def with_normal_noise(sample: Sample, std: float, rng: np.random.Generator) -> S
 
 
 def with_flipped_normals(sample: Sample, share: float, rng: np.random.Generator) -> Sample:
-    """Return the sample with a share of the normals that a method is given turned round; the truth itself stays."""
+    """Reverse a share of the normals that a method is given; the truth itself is kept."""
     given = _given_normals(sample)
-    turned = rng.choice(len(given), round(share * len(given)), replace=False)
+    reversed_rows = rng.choice(len(given), round(share * len(given)), replace=False)
     flipped = given.copy()
-    flipped[turned] *= -1
+    flipped[reversed_rows] *= -1
     return replace(sample, estimated_normals=flipped)
 
 
@@ -135,7 +135,7 @@ def _given_normals(sample: Sample) -> NDArray[np.float32]:
 
 
 def _along_longest_axis(points: NDArray[np.float32]) -> NDArray[np.float64]:
-    """Return where points lie along the longest side of their box, from 0 to 1; 0 if they are all equal."""
+    """Return the position of points along the longest side of their box, from 0 to 1; 0 if all are equal."""
     extent = np.ptp(points, axis=0)
     along = points[:, np.argmax(extent)].astype(np.float64)
     share: NDArray[np.float64] = (along - along.min()) / (extent.max() or 1)

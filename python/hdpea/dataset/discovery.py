@@ -19,7 +19,7 @@ LICENCE_FILE = "MANIFEST.json"
 def find_meshes(where: str) -> list[Source]:
     """Return the meshes that `where` names, ordered by name: a folder with its subfolders, a file, or thingi10k:ID,ID.
 
-    Origin and licence are those that a ``MANIFEST.json`` beside the meshes, or in a folder above, has for each file:
+    Origin and licence are those stated for each file in a ``MANIFEST.json`` beside the meshes, or in a folder above:
     ``{"files": [{"path": ..., "licence": ..., "source": ..., "source_path": ...}]}``, with paths relative to it.
 
     Raises
@@ -27,7 +27,7 @@ def find_meshes(where: str) -> list[Source]:
     UnreadableInput
         If there is no such file or folder, no mesh in it, or that MANIFEST.json is damaged.
     UsageError
-        If models of Thingi10K are asked for that cannot be had.
+        If Thingi10K has no such models, or its package is not installed.
     """
     if where.startswith(THINGI10K):
         return find_models(where.removeprefix(THINGI10K))
@@ -46,7 +46,7 @@ def find_clouds(where: str) -> list[Source]:
 
 
 def _found(root: Path, formats: tuple[str, ...], kind: str) -> list[Source]:
-    """Return the files of these formats; `kind` is what people call them."""
+    """Return the files of these formats; `kind` names them in error messages."""
     if not root.exists():
         raise UnreadableInput(f"There is no file or folder {root}.", "Check the spelling.")
     folder = root if root.is_dir() else root.parent
@@ -66,13 +66,13 @@ def _described(path: Path, folder: Path, known: dict[Path, tuple[str, str]]) -> 
 
 
 def _named_apart(sources: list[Source]) -> list[Source]:
-    """Give files of one name, such as cube.obj and cube.stl, their extension too."""
+    """Add the extension to names that are not unique, such as those of cube.obj and cube.stl."""
     names = [each.name for each in sources]
     return [each if names.count(each.name) == 1 else replace(each, name=each.source) for each in sources]
 
 
 def _known_origins(folder: Path) -> dict[Path, tuple[str, str]]:
-    """Return origin and licence by path, as the nearest MANIFEST.json at or above the folder has them."""
+    """Return origin and licence by path, from the nearest MANIFEST.json at or above the folder."""
     manifests = (above / LICENCE_FILE for above in (folder.resolve(), *folder.resolve().parents))
     manifest = next((each for each in manifests if each.is_file()), None)
     if manifest is None:

@@ -12,23 +12,24 @@ from hdpea import _core
 from hdpea.dataset.options import GroundTruthOptions
 from hdpea.errors import CannotReconstruct, core_errors_translated
 from hdpea.geometry.sampling import sample_surface
+from hdpea.geometry.tensors import principal, symmetric_tensors, tangent_directions
 from hdpea.geometry.triangles import area_vectors, mesh_area
 from hdpea.geometry.unit_frame import UnitFrame
 from hdpea.runtime.progress import ProgressCallback, of_phase, tell
 
 CURVATURE_SAMPLES = 100_000
-"""Points of the surface whose normals curvature is fitted to."""
+"""Points of the surface to whose normals curvature is fitted."""
 
 CURVATURE_NEIGHBORS = 100
-"""Nearest of them looked at around each vertex: all of one sheet within the radius."""
+"""Nearest of them considered around each vertex: enough to find all within the radius on the same sheet."""
 
 LEAST_AREA = 1e-9
-"""Of a surface, in the unit frame: less is a line and its rounding, which edges of no length would have to cover."""
+"""Smallest area of a surface in the unit frame: less is a line up to rounding, which cannot be remeshed."""
 
 
 @dataclass(frozen=True)
 class PointTruth:
-    """What is true of points of a surface: psi (n, 5), curvatures (n, 2), direction1 (n, 3), as in ``Sample``."""
+    """The truth at points of a surface: psi (n, 5), curvatures (n, 2), direction1 (n, 3), as in ``Sample``."""
 
     psi: NDArray[np.float64]
     curvatures: NDArray[np.float64]
@@ -60,31 +61,20 @@ class EmbeddedMesh:
     frame: UnitFrame
 
     def at(self, points_in_unit: NDArray[np.float64]) -> PointTruth:
-        """Return what is true at the points of the surface nearest to `points_in_unit` (n, 3).
+        """Return the truth at the points of the surface nearest to `points_in_unit` (n, 3).
 
-        Everything is interpolated with the barycentric weights of the nearest point (paper, section 3.1);
-        curvature as the shape operator, a tensor, since directions have no sign to interpolate.
+        Everything is interpolated with the barycentric weights of the nearest point (HD-PEA paper, section 3.1);
+        curvature as the shape operator, a tensor, since the sign of a direction is arbitrary.
         """
         with core_errors_translated():
             nearest = _core.closest_surface_points(self.vertices, self.faces, points_in_unit)
         corners, weights = self.faces[nearest.face], nearest.barycentric
         shape_operators = np.einsum("nc,ncij->nij", weights, self._shape_operators()[corners])
-        curvatures, direction1 = principal_curvatures(shape_operators)
+        curvatures, direction1 = principal(shape_operators)
         return PointTruth(np.einsum("nc,nci->ni", weights, self.psi[corners]), curvatures, direction1)
 
     def _shape_operators(self) -> NDArray[np.float64]:
-        directions = np.stack([self.direction1, np.cross(self.normals, self.direction1)], axis=1)
-        return np.asarray(np.einsum("nd,ndi,ndj->nij", self.curvatures, directions, directions))
-
-
-def principal_curvatures(
-    shape_operators: NDArray[np.float64],
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return k1, k2 (n, 2), |k1| >= |k2|, and the direction of k1 (n, 3) of symmetric tensors (n, 3, 3) of R^3."""
-    values, vectors = np.linalg.eigh(shape_operators)
-    order = np.argsort(-np.abs(values), axis=1, kind="stable")
-    direction1 = np.take_along_axis(vectors, order[:, None, :1], axis=2)[:, :, 0]
-    return np.take_along_axis(values, order[:, :2], axis=1), direction1
+        return symmetric_tensors(self.curvatures, tangent_directions(self.normals, self.direction1))
 
 
 def embed_mesh(
@@ -95,8 +85,8 @@ def embed_mesh(
 ) -> EmbeddedMesh:
     """Embed an edge-manifold, oriented triangle mesh (v, 3), (f, 3), closed or with borders, in R^8.
 
-    The mesh is remeshed, since a solver needs better triangles than CAD gives; curvature is fitted, at a
-    fixed length, to the normals of the *given* mesh. Lengths scale with the area (``GroundTruthOptions``).
+    The mesh is remeshed, since the solver needs better triangles than CAD models have; curvature is fitted, within
+    a fixed radius, to the normals of the *given* mesh. Lengths scale with the area (``GroundTruthOptions``).
 
     Raises
     ------
@@ -134,7 +124,7 @@ def _curvature_at(
     faces: NDArray[np.int64],
     radius: float,
 ) -> _core.Curvature:
-    """Fit the curvature at `vertices` to samples of the given mesh, whose normals are true ones."""
+    """Fit the curvature at `vertices` to samples of the given mesh, whose normals are exact."""
     samples = sample_surface(given, faces, CURVATURE_SAMPLES)
     points = np.vstack([vertices, samples.points])
     all_normals = np.vstack([normals, samples.normals])
@@ -148,7 +138,7 @@ def _curvature_at(
 
 
 def vertex_normals(vertices: NDArray[np.float64], faces: NDArray[np.int64]) -> NDArray[np.float64]:
-    """Return unit normals (v, 3) of a mesh's vertices, the mean of their faces' by area."""
+    """Return unit normals (v, 3) of a mesh's vertices, the area-weighted mean of those of their faces."""
     sums, by_area = np.zeros_like(vertices), area_vectors(vertices, faces)
     for corner in range(3):
         np.add.at(sums, faces[:, corner], by_area)

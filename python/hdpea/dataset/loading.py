@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A dataset on disk, for those who train or measure on it."""
+"""A dataset on disk, to train or to evaluate on."""
 
 from __future__ import annotations
 
@@ -18,12 +18,12 @@ from hdpea.reading import read_bytes
 
 
 class Dataset:
-    """The samples in a folder that ``hdpea dataset build`` made; each is checked against the manifest when read.
+    """The samples in a folder that ``hdpea dataset build`` made; each is checked against the manifest when it is read.
 
     Parameters
     ----------
     folder
-        Where its manifest lies.
+        The folder of its manifest.
 
     Raises
     ------
@@ -54,14 +54,14 @@ class Dataset:
         return map(self.read, self._entries)
 
     def read(self, name: str, transform: str | None = None) -> Sample:
-        """Return a sample, turned or mirrored by one of the ``TRANSFORMS`` of ``hdpea.dataset.augmentation``.
+        """Return a sample, rotated or mirrored by one of the ``TRANSFORMS`` of ``hdpea.dataset.augmentation``.
 
         Raises
         ------
         UsageError
             If there is no sample or no transform of that name.
         UnreadableInput
-            If its file is missing, or not the one that was built.
+            If its file is missing, or has changed since it was built.
         """
         if name not in self._entries:
             raise UsageError(f"There is no sample {name!r} in {self.folder}.", "Dataset.names lists them.")
@@ -70,7 +70,7 @@ class Dataset:
         if sha256(data).hexdigest() != entry.sha256:
             raise UnreadableInput(
                 f"{self.folder / entry.file} is not the file that was built: its SHA-256 differs.",
-                "`hdpea dataset build` with the same arguments makes it anew.",
+                "`hdpea dataset build` with the same arguments builds it again.",
             )
         sample = decoded(data)
         if transform is None:
@@ -82,7 +82,7 @@ class Dataset:
         return augmented(sample, TRANSFORMS[transform])
 
     def spacing(self, name: str) -> float:
-        """Return the unit of the lengths in the ground truth's options for a sample, in unit length."""
+        """Return the spacing of a sample, the unit of lengths in the options of its ground truth, in unit length."""
         if name not in self._spacings:
             self._spacings[name] = spacing_of(
                 self.read(name), options_from_manifest(self.manifest.options).ground_truth
@@ -90,7 +90,7 @@ class Dataset:
         return self._spacings[name]
 
     def augmented(self) -> Iterator[Sample]:
-        """Return every sample under every transform, made on loading; the transforms of a sample follow one another."""
+        """Iterate over every sample under every transform, applied on loading; the sample varies slowest."""
         from hdpea.dataset.augmentation import TRANSFORMS
 
         return (self.read(name, transform) for name in self._entries for transform in TRANSFORMS)

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The manifest of a dataset: all it takes to make it again, byte for byte, and to check that it is whole.
+"""The manifest of a dataset: all that is needed to build it again, byte for byte, and to check its files.
 
-It holds nothing that differs between two builds of the same: no times, no dates, no absolute paths.
+It contains nothing that differs between two builds of the same dataset: no times, no dates, no absolute paths.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ MANIFEST_NAME = "manifest.json"
 
 @dataclass(frozen=True)
 class SampleEntry:
-    """A file of the dataset: its path in the folder, the transform applied (None: none), and what to check it by."""
+    """A file of the dataset: its path in the folder, the transform applied (None: none), its size and its hash."""
 
     name: str
     file: str
@@ -34,18 +34,18 @@ class SampleEntry:
 
 @dataclass(frozen=True)
 class MeshEntry:
-    """A mesh, and what became of it.
+    """A mesh, and its samples or the reason why there are none.
 
     Attributes
     ----------
     name, source
         Unique name of the mesh; its file in the folder of meshes, or ``thingi10k:ID``.
     origin, licence
-        Where it comes from and under what terms, as far as is known.
+        Where it comes from and its terms of use, as far as known.
     sha256
-        Of the mesh's file; None if it could not be read.
+        Hash of the mesh's file; None if it could not be read.
     seed
-        Of all that is random about its samples.
+        Seed of everything random in its samples.
     skipped
         Why there are no samples of it; None if there are.
     """
@@ -62,7 +62,7 @@ class MeshEntry:
 
 @dataclass(frozen=True)
 class Manifest:
-    """What a dataset was made of: the version, every option by stage and name, and the meshes by name."""
+    """What a dataset was built from: the version, every option by stage and name, and the meshes by name."""
 
     hdpea: str
     options: Mapping[str, Mapping[str, Any]]
@@ -112,7 +112,7 @@ def read_manifest(path: Path) -> Manifest:
             return read(content)
     except (ValueError, TypeError, LookupError, AttributeError, RecursionError) as error:
         what = f"it is not the manifest of a dataset ({type(error).__name__}: {error})"
-        raise UnreadableInput(f"Cannot read {file}: {what}.", "Build the dataset anew.") from error
+        raise UnreadableInput(f"Cannot read {file}: {what}.", "Build the dataset again.") from error
     raise UnreadableInput(
         f"Cannot read {file}: it is a manifest of schema {schema}, this hdpea reads up to {SCHEMA}.", "Update hdpea."
     )

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The options of a dataset as its manifest records them, there and back."""
+"""The options of a dataset as its manifest records them: written and read."""
 
 from __future__ import annotations
 
@@ -12,16 +12,16 @@ from hdpea.options.settings import RUN, as_dict
 
 
 def options_for_manifest(options: DatasetOptions) -> dict[str, dict[str, Any]]:
-    """Return all that the bytes of a dataset depend on, by stage and name; fit for JSON."""
+    """Return all options that the bytes of a dataset depend on, by stage and name, for JSON."""
     listed = as_dict(options)
-    # How the work was shared out changes nothing, and the method of sampling is the kind of the sample.
+    # The options of the run do not affect the bytes, and the method of sampling is the kind of the sample.
     del listed[RUN], listed["sampling"]["method"]
     stages = ("sample", options.source_of_points, "ground_truth")
     return {stage: listed[stage] for stage in stages}
 
 
 def options_from_manifest(listed: Mapping[str, Mapping[str, Any]], **run: Any) -> DatasetOptions:
-    """Return the options that ``options_for_manifest`` listed, and those of this run.
+    """Return the options that ``options_for_manifest`` recorded, together with those of this run.
 
     Raises
     ------

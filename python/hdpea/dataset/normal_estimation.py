@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Normals as they are had from points alone, for samples to train on what scans have."""
+"""Normals estimated from the points alone, so that samples have normals like those of scans."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from hdpea.options import NormalOptions
 from hdpea.surface.normals import oriented_surface
 
 ORIENTATION = NormalOptions(orient="wnnc")
-"""By the winding number: samples are of closed surfaces, and it stands noise (paper, section 4.1)."""
+"""By winding number, which suits closed surfaces and is robust to noise (as in the HD-PEA paper, section 4.1)."""
 
 
 def estimated_normals(points: NDArray[np.floating[Any]]) -> NDArray[np.float32]:

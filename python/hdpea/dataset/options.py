@@ -4,17 +4,21 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
-from hdpea.geometry.metric import BENDING_LENGTH, ScaledMetric
 from hdpea.options import Checked, option
+from hdpea.options.embedding import BENDING_LENGTH
+
+if TYPE_CHECKING:
+    from hdpea.geometry.metric import ScaledMetric
 
 
 @dataclass(frozen=True)
 class GroundTruthOptions(Checked):
-    """How the true embedding of a mesh is made.
+    """How the true embedding of a mesh is computed.
 
-    Lengths are in spacings, sqrt(area / vertices): what a mesh of so many vertices can show depends on the area of
-    the surface, not on the diagonal of its box. On the validation meshes the spacing of 5,000 vertices is from 0.8
+    Lengths are in spacings, sqrt(area / vertices): what a mesh of so many vertices can resolve depends on the area
+    of the surface, not on the diagonal of its box. On the validation meshes the spacing of 5,000 vertices is from 0.8
     to 2.2 % of the diagonal.
     """
 
@@ -28,12 +32,14 @@ class GroundTruthOptions(Checked):
     @property
     def metric(self) -> ScaledMetric:
         """The metric, in spacings."""
+        from hdpea.geometry.metric import ScaledMetric
+
         return ScaledMetric(self.metric_scale, self.max_stretch, self.bending_length, self.curvature_radius)
 
 
 @dataclass(frozen=True)
 class SamplingOptions(Checked):
-    """How points are drawn of a mesh."""
+    """How points are drawn from a mesh."""
 
     points: int = option(40_000, "points to draw", minimum=1)
     method: str = option(
@@ -44,7 +50,7 @@ class SamplingOptions(Checked):
 
 @dataclass(frozen=True)
 class DegradationOptions(Checked):
-    """How a sample is made worse; 0 leaves it alone. Lengths are shares of the bounding-box diagonal."""
+    """How a sample is degraded; 0 disables a degradation. Lengths are shares of the bounding-box diagonal."""
 
     clipped: bool = option(False, "keep only one side of a plane through the middle of the points")
     missing: int = option(0, "balls to cut out, around points of the surface", minimum=0)
@@ -55,11 +61,11 @@ class DegradationOptions(Checked):
         choices=("even", "gradient", "striped"),
     )
     noise: float = option(
-        0.0, "std of Gaussian noise on each coordinate of the points (paper: 0.001 to 0.005)", minimum=0
+        0.0, "std of Gaussian noise on each coordinate of the points (HD-PEA: 0.001 to 0.005)", minimum=0
     )
-    outliers: float = option(0.0, "share of the points that are moved to anywhere", minimum=0, maximum=1)
-    normal_noise: float = option(0.0, "std of Gaussian noise on the normals (paper: 0.001, 0.002)", minimum=0)
-    flipped: float = option(0.0, "share of the normals that are turned round", minimum=0, maximum=1)
+    outliers: float = option(0.0, "share of the points that are moved to random places", minimum=0, maximum=1)
+    normal_noise: float = option(0.0, "std of Gaussian noise on the normals (HD-PEA: 0.001, 0.002)", minimum=0)
+    flipped: float = option(0.0, "share of the normals that are reversed", minimum=0, maximum=1)
     seed: int = option(0, "seed of everything random; the same seed gives the same points", minimum=0)
 
 
@@ -70,10 +76,10 @@ class ScanOptions(Checked):
     points: int = option(40_000, "points to return", minimum=1)
     sensor: str = option(
         "views",
-        "views: a depth camera all around; turntable: a sensor above the horizon, the model turning about z",
+        "views: a depth camera all around; turntable: a sensor above the horizon, the model rotating about z",
         choices=("views", "turntable"),
     )
-    views: int = option(12, "places from where the sensor looks", minimum=1)
+    views: int = option(12, "positions of the sensor", minimum=1)
     coverage: float = option(1.0, "share of all directions (turntable: of a turn) seen from", minimum=0.01, maximum=1)
     distance: float = option(1.5, "from the sensor to the middle of the model", minimum=0.6)
     noise: float = option(0.0005, "std of the range of a surface that faces the sensor, at that distance", minimum=0)
@@ -85,31 +91,31 @@ class ScanOptions(Checked):
 
 @dataclass(frozen=True)
 class SampleOptions(Checked):
-    """What a sample is made of."""
+    """How the points of a sample are made, and what is added to them."""
 
     kind: str = option(
         "area",
         "area: points at random, even by area; farthest: each far from the others; scan: as sensors see the surface",
         choices=("area", "farthest", "scan"),
     )
-    estimate: bool = option(False, "add normals estimated from the points alone, for training on what scans have")
-    augmented: bool = option(False, "write all ten augmentations, for a release; otherwise they are made on loading")
+    estimate: bool = option(False, "add normals estimated from the points alone, like those of scans")
+    augmented: bool = option(False, "write all ten augmentations, for a release; otherwise they are applied on loading")
 
 
 @dataclass(frozen=True)
 class DatasetOptions(Checked):
-    """Everything ``hdpea.dataset.build.build_dataset`` can be told; the manifest holds all but the run's own."""
+    """All options of ``hdpea.dataset.build_dataset``; the manifest records all but those of the run."""
 
     sample: SampleOptions = SampleOptions()
     sampling: SamplingOptions = SamplingOptions()
     scanning: ScanOptions = ScanOptions()
     ground_truth: GroundTruthOptions = GroundTruthOptions()
-    jobs: int = option(0, "meshes at a time, which share the cores; 0: one for each core", minimum=0)
-    time_limit: float = option(3600, "seconds after which a mesh is given up and skipped", minimum=0)
+    jobs: int = option(0, "meshes processed at a time, sharing the cores; 0: one per core", minimum=0)
+    time_limit: float = option(3600, "seconds after which a mesh is abandoned and skipped", minimum=0)
 
     @property
     def source_of_points(self) -> str:
-        """The stage that the points come from; the other one does nothing."""
+        """The stage that the points come from; the other one is unused."""
         return "scanning" if self.sample.kind == "scan" else "sampling"
 
     @property

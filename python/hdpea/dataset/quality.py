@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How good the embedding of a sample is: how far from isometric, how far from smooth."""
+"""Quality of the embedding of a sample: its deviation from isometry, and its roughness."""
 
 from __future__ import annotations
 
@@ -10,16 +10,17 @@ from hdpea import _core
 from hdpea.dataset.options import GroundTruthOptions
 from hdpea.dataset.sample import Sample
 from hdpea.errors import core_errors_translated
+from hdpea.geometry.tensors import symmetric_tensors, tangent_directions
 from hdpea.surface.surface import area_shown
 
 Rows = NDArray[np.float64]
 
 NEIGHBORS = 12
-"""Nearest points of the same sheet between which lengths are measured, as many as the paper takes for an area."""
+"""Nearest points of the same sheet to which lengths are measured, as many as in the HD-PEA paper, appendix B."""
 
 
 def neighbors_of(sample: Sample) -> NDArray[np.int64]:
-    """Return the nearest points (n, 12) of the same sheet as each, -1 pads; nearest in space, where noise is not."""
+    """Return the nearest points (n, 12) of the same sheet as each, padded with -1, without noise."""
     points, normals = sample.surface_points.astype(np.float64), sample.normals.astype(np.float64)
     with core_errors_translated():
         return _core.sheet_neighbors(points, normals, _core.nearest_neighbors(points, NEIGHBORS))
@@ -28,14 +29,14 @@ def neighbors_of(sample: Sample) -> NDArray[np.int64]:
 def spacing_of(sample: Sample, options: GroundTruthOptions) -> float:
     """Return sqrt(area / vertices) in the unit frame, the unit of the lengths in `options`.
 
-    The area is that of the surface the points show, to some percent. (A sample does not hold its mesh.)
+    The area is estimated from the points, to within a few percent, since a sample does not contain its mesh.
     """
     area = area_shown(sample.surface_points.astype(np.float64), neighbors_of(sample))
     return float(np.sqrt(area / options.vertices))
 
 
 def stretches(curvatures: NDArray[np.float32], options: GroundTruthOptions, spacing: float) -> Rows:
-    """Return how much the metric stretches along the principal directions (n, 2): sqrt(clamp(c |k|, 1, s_max^2)).
+    """Return the stretch of the metric along the principal directions (n, 2): sqrt(clamp(c |k|, 1, s_max^2)).
 
     Parameters
     ----------
@@ -48,10 +49,10 @@ def stretches(curvatures: NDArray[np.float32], options: GroundTruthOptions, spac
 
 
 def isometry_errors(sample: Sample, options: GroundTruthOptions, spacing: float) -> Rows:
-    """Return by how much distances in R^8 from each point to its neighbours are off their length under the metric.
+    """Return the relative errors (n,) of distances in R^8 to the neighbours, against those of the metric.
 
-    A length under the metric is sqrt(dx^T M dx), with the mean M of both ends; the error (n,) is the root mean
-    square over the neighbours of the ratio less 1: 0 where the embedding is isometric, or there are none.
+    The length under the metric is sqrt(dx^T M dx), with the mean M of both ends; the error is the root mean square
+    over the neighbours of the ratio minus 1: 0 where the embedding is isometric, or there are no neighbours.
     """
     neighbors = neighbors_of(sample)
     offsets, known = _offsets(sample.surface_points.astype(np.float64), neighbors)
@@ -66,10 +67,10 @@ def isometry_errors(sample: Sample, options: GroundTruthOptions, spacing: float)
 
 
 def roughness(sample: Sample) -> Rows:
-    """Return how far the neighbours of each point lie off their best plane in R^8, over how far they lie apart.
+    """Return the distances (n,) of neighbours to their best plane in R^8, over their extent.
 
-    The share (n,) is a root mean square of distances: 0 where the embedding is flat, more than a half where psi is
-    noise, and where it is smooth the less the denser the points.
+    The ratio (n,) is of root mean squares: 0 where the embedding is flat, above one half where psi is noise; where
+    the embedding is smooth, it falls with the density of the points.
     """
     neighbors = neighbors_of(sample)
     offsets, known = _offsets(sample.embedding.astype(np.float64), neighbors)
@@ -81,7 +82,7 @@ def roughness(sample: Sample) -> Rows:
 
 
 def _offsets(rows: Rows, neighbors: NDArray[np.int64]) -> tuple[Rows, NDArray[np.bool_]]:
-    """Return the rows (n, k, d) of the neighbours less those of the points, 0 where there is none, and which are."""
+    """Return the offsets (n, k, d) of the neighbours, 0 where there is none, and the mask (n, k) of neighbours."""
     known = neighbors >= 0
     return np.where(known[:, :, None], rows[neighbors] - rows[:, None], 0), known
 
@@ -89,5 +90,5 @@ def _offsets(rows: Rows, neighbors: NDArray[np.int64]) -> tuple[Rows, NDArray[np
 def _metric(sample: Sample, stretch: Rows) -> Rows:
     """Return M (n, 3, 3), the identity along the normals."""
     direction1 = sample.direction1.astype(np.float64)
-    directions = np.stack([direction1, np.cross(sample.normals.astype(np.float64), direction1)], axis=1)
-    return np.asarray(np.eye(3) + np.einsum("nd,ndi,ndj->nij", stretch**2 - 1, directions, directions))
+    directions = tangent_directions(sample.normals.astype(np.float64), direction1)
+    return np.asarray(np.eye(3) + symmetric_tensors(stretch**2 - 1, directions))

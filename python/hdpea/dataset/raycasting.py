@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What rays meet first on a mesh, by Embree."""
+"""First intersections of rays with a mesh, by Embree."""
 
 from __future__ import annotations
 
@@ -14,12 +14,12 @@ from hdpea.errors import UsageError
 
 @dataclass(frozen=True)
 class Hits:
-    """The rays that meet the mesh.
+    """The rays that hit the mesh.
 
     Attributes
     ----------
     rays, faces
-        (h,) int64: which rays they are, ascending, and the faces they meet first.
+        (h,) int64: indices of the rays, ascending, and the faces they hit first.
     barycentric
         (h, 3) float64: weights of these faces' corners, not negative, sum 1.
     """
@@ -30,7 +30,7 @@ class Hits:
 
 
 def require_embree() -> None:
-    """Refuse to cast rays where nothing can.
+    """Check that rays can be cast.
 
     Raises
     ------
@@ -55,15 +55,15 @@ class RayCaster:
         from embreex.mesh_construction import TriangleMesh
         from embreex.rtcore_scene import EmbreeScene
 
-        self._scene = EmbreeScene(robust=True)  # else a ray may slip through between two faces
+        self._scene = EmbreeScene(robust=True)  # otherwise a ray may pass between two faces
         TriangleMesh(self._scene, vertices.astype(np.float32), faces.astype(np.int32))
 
     def cast(self, origin: NDArray[np.float64], directions: NDArray[np.float64]) -> Hits:
-        """Cast rays from one place (3,) in `directions` (r, 3)."""
+        """Cast rays from one origin (3,) in `directions` (r, 3)."""
         origins = np.broadcast_to(origin.astype(np.float32), directions.shape).copy()
         found = self._scene.run(origins, directions.astype(np.float32), query="INTERSECT", output=True)
         rays = np.flatnonzero(found["primID"] >= 0)
         second, third = (found[name][rays].astype(np.float64).clip(0, 1) for name in ("u", "v"))
-        third = np.minimum(third, 1 - second)  # Embree's weights may leave the triangle by a rounding
+        third = np.minimum(third, 1 - second)  # by rounding, Embree's weights may lie outside the triangle
         barycentric = np.stack([1 - second - third, second, third], axis=1)
         return Hits(rays, found["primID"][rays].astype(np.int64), barycentric)

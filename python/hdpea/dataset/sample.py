@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A sample: points of a known surface, and what is true of each."""
+"""A sample: points of a known surface, and the truth at each."""
 
 from __future__ import annotations
 
@@ -13,14 +13,14 @@ from hdpea.geometry.unit_frame import UnitFrame
 
 @dataclass(frozen=True)
 class Sample:
-    """Points of a known surface in its unit frame (design: bounding-box diagonal of the *mesh* is 1).
+    """Points of a known surface in its unit frame, in which the bounding-box diagonal of the *mesh* is 1.
 
     Attributes
     ----------
     points
-        (n, 3) float32, as a sensor would give them: with noise, if there is any.
+        (n, 3) float32, as a sensor would measure them: with noise, if any.
     surface_points
-        (n, 3) float32, the true points of the surface that `points` stand for; equal to them without noise.
+        (n, 3) float32, the true points of the surface that `points` represent; equal to them without noise.
     normals
         (n, 3) float32, unit, those of the mesh's faces at `surface_points`, outward.
     psi
@@ -30,11 +30,11 @@ class Sample:
     direction1
         (n, 3) float32, unit principal direction of k1; that of k2 is normal x direction1.
     frame
-        Where the unit frame lies in the world.
+        The unit frame, in world units.
     estimated_normals
-        (n, 3) float32, unit, as estimated and oriented from `points` alone; None if they were not asked for.
+        (n, 3) float32, unit, estimated and oriented from `points` alone; None if not requested.
     sensors
-        (n, 3) float32, where the sensor stood that saw each point; None if no sensor did.
+        (n, 3) float32, position of the sensor that saw each point; None if the points are not of a scan.
     """
 
     points: NDArray[np.float32]

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A sample as one NPZ file; the same sample is the same bytes.
 
-Arrays are stored as they are, not compressed: coordinates hardly shrink, and what a compressor writes depends
-on its version. The file of any schema that was ever written stays readable, each by the function in ``_READERS``.
+Arrays are not compressed: coordinates hardly shrink, and the output of a compressor depends on its version. Files
+of every schema ever written stay readable, each by its function in ``_READERS``.
 """
 
 from __future__ import annotations
@@ -42,7 +42,7 @@ def write_sample(path: Path, sample: Sample) -> None:
 
 
 def encoded(sample: Sample) -> bytes:
-    """Return the content of the file of a sample; what it does not know, or knows twice, is left out."""
+    """Return the content of the file of a sample, without arrays that are None or equal to another."""
     arrays: dict[str, Any] = {name: getattr(sample, name) for name in (*_COLUMNS, *_OPTIONAL)}
     if np.array_equal(sample.surface_points, sample.points):
         arrays["surface_points"] = None
@@ -70,7 +70,7 @@ def read_sample(path: Path) -> Sample:
 
 
 def decoded(data: bytes) -> Sample:
-    """Return the sample that a file of this content holds.
+    """Return the sample in a file of this content.
 
     Raises
     ------
@@ -113,7 +113,7 @@ def _rows(array: NDArray[Any], name: str, width: int) -> NDArray[np.float32]:
 
 def _finite(array: NDArray[Any], name: str, shape: tuple[int, ...]) -> NDArray[Any]:
     if array.shape != shape or array.dtype.kind != "f" or not np.isfinite(array).all():
-        raise UnreadableInput(f"its array {name} is not finite numbers of shape {shape}.", "Make the sample anew.")
+        raise UnreadableInput(f"its array {name} is not finite numbers of shape {shape}.", "Make the sample again.")
     return array
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A sample of a mesh: points on it or of a scan of it, and what is true of each."""
+"""Generation of a sample from a mesh: points on it, or of a scan of it, and the truth at each."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ def make_sample(
         If the surface cannot be embedded, or has no area.
     """
     frame = UnitFrame.around(vertices_in_world)
-    # Points first: what goes wrong with them should not take the minute that the truth takes.
+    # Points first: an error there should not come after the minute that the truth takes.
     tell(progress, "points", 0.0)
     points, surface_points, normals, sensors = draw_points(frame.to_unit(vertices_in_world), faces, options, seed)
     estimated = estimated_normals(points) if options.sample.estimate else None
@@ -56,7 +56,7 @@ def make_sample(
 def draw_points(
     vertices: Rows, faces: NDArray[np.int64], options: DatasetOptions, seed: int
 ) -> tuple[Rows, Rows, Rows, Rows | None]:
-    """Return points, the points of the surface they stand for, normals and sensors, if any saw them."""
+    """Return points, the true points of the surface, normals, and the positions of the sensor, if scanned."""
     if options.sample.kind == "scan":
         scan = scan_surface(vertices, faces, replace(options.scanning, seed=seed))
         return scan.points, scan.surface_points, scan.normals, scan.sensors

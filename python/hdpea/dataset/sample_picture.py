@@ -17,10 +17,10 @@ from hdpea.pictures.colors import MOST_ANISOTROPIC, Colors, as_bytes, ratio_colo
 from hdpea.pictures.picture import drawn_to, look_at, point_size
 
 STROKES = 600
-"""Strokes along the direction of the smaller curvature."""
+"""Number of strokes drawn along the direction of the smaller curvature."""
 
 STROKE_LENGTH = 0.02
-"""Of a stroke where the stretches are equal, which draws a dot, to this where they differ most; of the diagonal."""
+"""Longest stroke, in diagonals, where the stretches differ most; where they are equal it is a dot."""
 
 PANEL = (800, 800)
 """Width and height of a panel in pixels."""
@@ -53,7 +53,7 @@ def draw_sample(path: Path, sample: Sample, options: GroundTruthOptions | None =
     with drawn_to(path, shape=(1, len(panels)), window_size=window, border=False) as (pyvista, plotter):
         for column, colors in enumerate(panels):
             plotter.subplot(0, column)
-            # Points hide nothing behind them: those of the far side are left out.
+            # Points do not hide what is behind them, so those facing away are left out.
             plotter.add_points(
                 points[facing],
                 scalars=colors[facing],
@@ -74,7 +74,7 @@ def normal_colors(normals: NDArray[np.float32]) -> Colors:
 def psi_colors(psi: NDArray[np.float32]) -> Colors:
     """Return the first three principal components of psi (n, 5) as red, green and blue (n, 3), 1st to 99th percentile.
 
-    The same psi gives the same colours, whatever signs the decomposition chose.
+    The same psi gives the same colours, whatever signs the decomposition chooses.
     """
     centred = psi.astype(np.float64) - psi.mean(axis=0, dtype=np.float64)
     _, _, axes = np.linalg.svd(centred.T @ centred)
@@ -92,7 +92,7 @@ def _add_strokes(
     ratio: NDArray[np.float64],
     facing: NDArray[np.int64],
 ) -> None:
-    """Draw strokes at evenly spread points, the longer the more anisotropic, just in front of the points."""
+    """Draw strokes at evenly spaced points, longer where the metric is more anisotropic, in front of the points."""
     from hdpea import _core
 
     facing_points = np.ascontiguousarray(points[facing], np.float64)

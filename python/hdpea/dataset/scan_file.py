@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A scan as a PLY file, for any program that reads points."""
+"""A scan as a PLY file, for any program that reads point clouds."""
 
 from __future__ import annotations
 
@@ -14,12 +14,12 @@ SENSOR_NAMES = ("sensor_x", "sensor_y", "sensor_z")
 
 
 def write_scan(path: Path, scan: Scan, frame: UnitFrame) -> None:
-    """Write the points of a scan in world coordinates, their normals, and where the sensor stood that saw each.
+    """Write the points of a scan in world coordinates, with normals and the position of the sensor that saw each.
 
     Raises
     ------
     UsageError
-        If the file cannot be written, or is not PLY by its name.
+        If the file cannot be written, or its name does not end in .ply.
     """
     check_output(path, (".ply",))
     others = dict(zip(SENSOR_NAMES, frame.to_world(scan.sensors).T, strict=True))

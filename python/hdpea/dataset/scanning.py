@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Scans of a mesh by a simulated range sensor, in the manner of BlenSor (Gschwandtner et al., 2011)."""
+"""Scans of a mesh by a simulated range sensor, similar to BlenSor (Gschwandtner et al., 2011)."""
 
 from __future__ import annotations
 
@@ -15,34 +15,34 @@ from hdpea.errors import CannotReconstruct
 from hdpea.geometry.sampling import face_normals, points_at
 
 FIRST_RESOLUTION = 64
-"""Pixels across of the look that tells how many more are needed."""
+"""Pixels across of the first pass, from which the resolution that is needed is estimated."""
 
 SURPLUS = 1.3
-"""Points to see for every point wanted, so that the choice among them breaks up the grid of the pixels."""
+"""Points seen for every point wanted, so that a random choice among them breaks up the grid of the pixels."""
 
 LARGEST_RESOLUTION = 2048
-"""Where casting finer ends: the model is then all but invisible."""
+"""Highest resolution: a model that yields too few points even then is all but invisible."""
 
 LEAST_COSINE = 0.2
-"""Of the angle between ray and normal; noise grows with its inverse, but not without end."""
+"""Smallest cosine between ray and normal in the noise model: noise grows with its inverse, up to this limit."""
 
 
 @dataclass(frozen=True)
 class Scan:
-    """Points of a mesh as seen from its outside, a row for each; all in the unit frame.
+    """Points of a mesh as seen from outside, one row for each; all in the unit frame.
 
     Attributes
     ----------
     points
         (n, 3) float64, as the sensor measured them: `surface_points` moved along their rays.
     surface_points
-        (n, 3) float64: where the rays met the mesh.
+        (n, 3) float64: where the rays hit the mesh.
     normals
-        (n, 3) float64, unit: those of the faces met, which look at the sensor.
+        (n, 3) float64, unit: normals of the faces hit, which face the sensor.
     faces
-        (n,) int64: the faces met.
+        (n,) int64: the faces hit.
     sensors
-        (n, 3) float64: where the sensor stood.
+        (n, 3) float64: positions of the sensor.
     """
 
     points: NDArray[np.float64]
@@ -57,11 +57,11 @@ class Scan:
 
 
 def scan_surface(vertices: NDArray[np.float64], faces: NDArray[np.int64], options: ScanOptions | None = None) -> Scan:
-    """Scan a mesh (v, 3), (f, 3) in its unit frame, whose faces look outward; the same for the same seed.
+    """Scan a mesh (v, 3), (f, 3) in its unit frame, whose faces are oriented outward; the same for the same seed.
 
-    What no ray reaches is missing: cavities, deep pockets, the underside on a turntable. A face met from behind
-    returns nothing, since the sensor stands outside. The pixels are as fine as it takes to see somewhat more points
-    than wanted; which of them stay is drawn.
+    Whatever no ray reaches is missing: cavities, deep pockets, the underside on a turntable. A face hit from behind
+    returns nothing, since the sensor is outside. The resolution is chosen so that somewhat more points than wanted
+    are seen; those that are kept are chosen at random.
 
     Raises
     ------
@@ -102,7 +102,7 @@ class _Scanner:
         self._positions = sensor_positions(options, rng)
 
     def look(self, resolution: int) -> Scan:
-        """Return what all views together see with so many pixels across each."""
+        """Return the points that all views together see, each with so many pixels across."""
         views = [self._look_from(position, resolution) for position in self._positions]
         names = (each.name for each in fields(Scan))
         return Scan(**{name: np.concatenate([getattr(view, name) for view in views]) for name in names})

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Where a simulated sensor stands, and the rays it casts."""
+"""Positions of a simulated sensor, and the rays it casts."""
 
 from __future__ import annotations
 
@@ -12,21 +12,21 @@ from hdpea.dataset.options import ScanOptions
 TAU = 2 * np.pi
 
 MODEL_RADIUS = 0.5
-"""Of the ball around the middle of the unit frame that holds the model: half its diagonal."""
+"""Radius of the ball around the origin of the unit frame that contains the model: half its diagonal."""
 
 ELEVATIONS = (TAU / 24, TAU / 9, TAU / 6)
-"""Of the turntable's sensor above the horizon; never below it, so what stands on the table stays unseen."""
+"""Elevations of the turntable's sensor above the horizon; the underside of the model is never seen."""
 
 GOLDEN_ANGLE = TAU * (2 - (1 + 5**0.5) / 2)
 JITTER = 0.05
-"""Std in radians of where the sensor stands, so that no two models are seen from the same places."""
+"""Std in radians of the direction of the sensor, so that no two models are seen from the same positions."""
 
 
 def sensor_positions(options: ScanOptions, rng: np.random.Generator) -> NDArray[np.float64]:
-    """Return where the sensor stands (views, 3) in the unit frame.
+    """Return the positions (views, 3) of the sensor in the unit frame.
 
     ``views``: a Fibonacci spiral on the sphere, or on a cap of it around a random direction if the coverage is less
-    than 1. ``turntable``: one after the other at each of the elevations while the model turns, from a random angle on.
+    than 1. ``turntable``: at each of the elevations in turn while the model rotates, starting at a random angle.
     """
     each = np.arange(options.views)
     if options.sensor == "turntable":
@@ -41,16 +41,16 @@ def sensor_positions(options: ScanOptions, rng: np.random.Generator) -> NDArray[
 
 
 def camera_rays(position: NDArray[np.float64], resolution: int, roll: float) -> NDArray[np.float64]:
-    """Return unit directions (r, 3) from `position` (3,): a square grid of pixels, round enough to hold the model.
+    """Return unit directions (r, 3) from `position` (3,): a square grid of pixels, cropped to the disk of the model.
 
     Parameters
     ----------
     position
-        Where the camera stands; it looks at the origin.
+        Position of the camera, which looks at the origin.
     resolution
-        Pixels across.
+        Pixels across the grid.
     roll
-        Angle in radians by which the camera is turned about its axis.
+        Rotation of the camera about its axis, in radians.
     """
     distance = float(np.linalg.norm(position))
     forward = -position / distance

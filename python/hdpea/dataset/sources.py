@@ -13,7 +13,19 @@ UNSTATED = "unstated"
 
 @dataclass(frozen=True)
 class Source:
-    """A file of a mesh, or of a cloud: a name unique among them, where it was found, whose it is, under what terms."""
+    """The file of a mesh or a point cloud.
+
+    Attributes
+    ----------
+    name
+        Unique among the files of a dataset or suite.
+    source
+        Path relative to the folder in which it was found, or ``thingi10k:ID``.
+    path
+        Where the file is on this machine.
+    origin, licence
+        Where it comes from, and its terms of use.
+    """
 
     name: str
     source: str

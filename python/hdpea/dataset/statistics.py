@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What is in a sample, in numbers."""
+"""Statistics of a sample."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ PERCENTILES = (0, 5, 50, 95, 100)
 
 @dataclass(frozen=True)
 class SampleStatistics:
-    """Percentiles (0, 5, 50, 95, 100) of what is known of the points, by name, and what the sample holds besides."""
+    """Percentiles (0, 5, 50, 95, 100) of quantities at the points, by name, and which optional arrays there are."""
 
     points: int
     optional: tuple[str, ...]
@@ -25,7 +25,7 @@ class SampleStatistics:
 
 
 def sample_statistics(sample: Sample, options: GroundTruthOptions) -> SampleStatistics:
-    """Return the facts of a sample whose metric is that of `options`."""
+    """Return the statistics of a sample whose ground truth was made with `options`."""
     spacing = spacing_of(sample, options)
     stretch = stretches(sample.curvatures, options, spacing)
     ranges = {

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The surface in a mesh file, if it has an inside and an outside."""
+"""The closed surface in a mesh file."""
 
 from __future__ import annotations
 
@@ -15,15 +15,15 @@ from hdpea.reading.triangle_mesh import SURFACE_HINT, TriangleMesh, parse_triang
 def read_surface(path: Path) -> TriangleMesh:
     """Return the vertices (v, 3) float64 and faces (f, 3) int64 of a closed surface, its normals outward.
 
-    Equal vertices are merged, since some formats repeat them for every face; faces that lose their area and
-    vertices without faces are dropped. A surface that is inside out is turned.
+    Equal vertices are merged, since some formats repeat them for every face; faces that become degenerate and
+    vertices without faces are dropped. A surface that is inside out is reoriented.
 
     Raises
     ------
     UnreadableInput
         If the file is missing, damaged, or holds no faces.
     CannotReconstruct
-        If the surface is not closed, manifold and of one orientation.
+        If the surface is not closed, manifold and consistently oriented.
     """
     vertices, faces = parse_triangle_mesh(path)
     vertices, faces = _merged(vertices, faces)

@@ -19,7 +19,7 @@ def find_models(ids: str) -> list[Source]:
     Raises
     ------
     UsageError
-        If these are no IDs, there are no such models, or the package ``thingi10k`` is not installed.
+        If these are not IDs, there are no such models, or the package ``thingi10k`` is not installed.
     UnreadableInput
         If the models can be neither downloaded nor found in its cache.
     """
@@ -38,7 +38,7 @@ def find_models(ids: str) -> list[Source]:
         entries = {entry["file_id"]: entry for entry in thingi10k.dataset(file_id=wanted)}
     except (RuntimeError, OSError) as error:
         hint = "Its first use downloads some gigabytes: is there a network, and room on the disk?"
-        raise UnreadableInput(f"Thingi10K cannot be had: {error}.", hint) from error
+        raise UnreadableInput(f"Thingi10K cannot be downloaded or read: {error}.", hint) from error
     missing = [each for each in wanted if each not in entries]
     if missing:
         raise UsageError(

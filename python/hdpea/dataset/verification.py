@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Whether a dataset that was built again is the same."""
+"""Verification that a dataset built again is the same."""
 
 from __future__ import annotations
 
@@ -8,12 +8,12 @@ from hdpea.errors import QualityMissed
 
 
 def require_same_bytes(wanted: Manifest, made: Manifest) -> None:
-    """Make sure that every file that `wanted` lists was made again, with the same bytes, and no other.
+    """Check that every file listed in `wanted` was built again with the same bytes, and no other file.
 
     Raises
     ------
     QualityMissed
-        Naming the first that differs, and what may be the cause.
+        If not; the message names the first difference, the hint a possible cause.
     """
     meshes = {each.name: each for each in made.meshes}
     for mesh in wanted.meshes:

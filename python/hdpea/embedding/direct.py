@@ -7,9 +7,10 @@ import numpy as np
 
 from hdpea import _core
 from hdpea.embedding.embedded import Embedded
-from hdpea.geometry.metric import BENDING_LENGTH, CURVATURE_RADIUS, ScaledMetric
+from hdpea.geometry.metric import ScaledMetric
 from hdpea.options import EmbeddingOptions
 from hdpea.options.choice import Choice
+from hdpea.options.embedding import BENDING_LENGTH, CURVATURE_RADIUS
 from hdpea.options.lengths import Length
 from hdpea.runtime.progress import PhaseCallback
 from hdpea.surface.surface import Surface
@@ -20,10 +21,10 @@ LONGEST_BENDING = 1e3
 
 
 def embed_directly(surface: Surface, vertices: int, options: EmbeddingOptions, progress: PhaseCallback) -> Embedded:
-    """Return the embedding [p, psi] of a surface, at the scale of a mesh of so many `vertices`.
+    """Return the embedding [p, psi] of a surface, at the scale of a mesh with that many `vertices`.
 
-    Curvature is fitted to the normals, a soup of tangential Delaunay triangles stands in for a mesh, and
-    psi is solved for on it (``solve_embedding`` of the core).
+    Curvature is fitted to the normals; psi is solved for on a soup of restricted Delaunay triangles in place of a mesh
+    (``solve_embedding`` of the core).
     """
     points, normals = surface.points_in_unit, surface.normals
     soup = triangle_soup(points, normals, surface.neighbors)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The learned embedding: a network gives psi at once."""
+"""The learned embedding: a network predicts psi."""
 
 from __future__ import annotations
 
@@ -9,6 +9,7 @@ import numpy as np
 
 from hdpea import _core
 from hdpea.embedding.embedded import Embedded
+from hdpea.geometry.interpolation import Interpolation
 from hdpea.geometry.thinning import thinned
 from hdpea.options import EmbeddingOptions
 from hdpea.options.choice import Choice
@@ -16,14 +17,15 @@ from hdpea.runtime.progress import PhaseCallback
 from hdpea.surface.surface import NEIGHBORS, Surface, area_shown
 
 PER_VERTEX = (4.0, 12.0)
-"""Points for each vertex that training has seen: 20,000 to 60,000 for 5,000 vertices."""
+"""Least and most points per vertex in training: 20,000 to 60,000 for 5,000 vertices."""
 
 
 def embed_learned(surface: Surface, vertices: int, options: EmbeddingOptions, progress: PhaseCallback) -> Embedded:
-    """Return the embedding [p, psi] of a surface by a trained network, at the scale of a mesh of so many `vertices`.
+    """Return the embedding [p, psi] of a surface by a network, at the scale of a mesh with that many `vertices`.
 
-    A cloud of many more points per vertex than training has seen is thinned before the network, and psi carried
-    over to all its points; one of fewer is embedded at the scale of a mesh that it could show.
+    A cloud of more points per vertex than there were in training is thinned before the network, and psi interpolated
+    at all its points; one of fewer is embedded at the scale of the finest mesh that it could show. The metric is the
+    one that the network was trained on.
 
     Raises
     ------
@@ -33,7 +35,6 @@ def embed_learned(surface: Surface, vertices: int, options: EmbeddingOptions, pr
         If `progress` cancels.
     """
     # torch takes more than a second to load, and no other embedding needs it.
-    from hdpea.network.averaging import carried_over
     from hdpea.network.inference import predict_psi
     from hdpea.network.weights import SHIPPED, read_weights
 
@@ -48,7 +49,7 @@ def embed_learned(surface: Surface, vertices: int, options: EmbeddingOptions, pr
         neighbors = _core.sheet_neighbors(points, normals, _core.nearest_neighbors(points, NEIGHBORS))
     psi = predict_psi(network, points, normals, neighbors, spacing, options.whole_points, progress)
     if len(kept) < len(surface.points_in_unit):
-        psi = carried_over(points, normals, neighbors, psi, surface.points_in_unit, surface.normals)
+        psi = Interpolation.of(points, normals, surface.points_in_unit, surface.normals)(psi)
     choices = (
         Choice(
             "metric_spacing", spacing * surface.frame.diagonal, "world units", f"that of {round(shown):,} particles"

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How far two surfaces are apart: between samples, as papers report it, and exactly."""
+"""Distances between two surfaces: between samples of them, as papers report, and exact."""
 
 from __future__ import annotations
 
@@ -15,14 +15,14 @@ Rows = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class SampleDistances:
-    """From each sample of one surface to the nearest sample of the other, both ways, and what their normals say.
+    """Distances from each sample of either surface to the nearest of the other, and how well their normals agree.
 
     Attributes
     ----------
     from_truth, from_result
-        (n,) and (m,).
+        (n,) from the samples of the truth, (m,) from those of the result.
     normal_consistency
-        Mean |n . n'| of nearest samples, the mean of both ways; None where normals are unknown.
+        Mean |n . n'| over nearest samples, averaged over both directions; None where normals are unknown.
     """
 
     from_truth: Rows
@@ -30,16 +30,16 @@ class SampleDistances:
     normal_consistency: float | None
 
     def chamfer(self, unit: float) -> float:
-        """Return the mean squared distance one way plus that the other way, in squares of `unit`."""
+        """Return the sum of the mean squared distances in both directions, in `unit` squared."""
         return float(np.mean(self.from_truth**2) + np.mean(self.from_result**2)) / unit**2
 
     def f1(self, threshold: float) -> float:
-        """Return the harmonic mean of the shares of samples, either way, that are nearer than `threshold`."""
+        """Return the harmonic mean of precision and recall: the shares of samples that are nearer than `threshold`."""
         recall, precision = np.mean(self.from_truth < threshold), np.mean(self.from_result < threshold)
         return float(2 * precision * recall / (precision + recall)) if precision + recall > 0 else 0.0
 
     def hausdorff(self, unit: float) -> float:
-        """Return the largest distance of either way, in `unit`."""
+        """Return the largest distance in either direction, in `unit`."""
         return float(max(self.from_truth.max(), self.from_result.max())) / unit
 
 
@@ -51,11 +51,11 @@ def distances_between(
     from_result, nearest_to_result = _to_nearest(truth, result)
     consistency = None
     if truth_normals is not None and result_normals is not None:
-        ways = (
+        agreements = (
             _agreement(truth_normals, result_normals[nearest_to_truth]),
             _agreement(result_normals, truth_normals[nearest_to_result]),
         )
-        consistency = float(np.mean(ways))
+        consistency = float(np.mean(agreements))
     return SampleDistances(from_truth, from_result, consistency)
 
 
@@ -70,21 +70,21 @@ def _agreement(normals: Rows, others: Rows) -> float:
 
 
 @dataclass(frozen=True)
-class OneWay:
-    """Exact distances from points of one surface to the other surface; ``max`` counts its vertices, too."""
+class DirectedDistances:
+    """Exact distances from points of one surface to the other surface; ``max`` includes the vertices of the first."""
 
     rms: float
     max: float
 
-    def in_unit(self, unit: float) -> OneWay:
-        """Return the same in `unit`."""
-        return OneWay(self.rms / unit, self.max / unit)
+    def in_unit(self, unit: float) -> DirectedDistances:
+        """Return the same distances in `unit`."""
+        return DirectedDistances(self.rms / unit, self.max / unit)
 
 
-def distances_to_surface(samples: Rows, corners: Rows, vertices: Rows, faces: NDArray[np.int64]) -> OneWay:
-    """Return how far samples (n, 3) of one surface, and its vertices `corners` (c, 3), are from another surface.
+def distances_to_surface(samples: Rows, corners: Rows, vertices: Rows, faces: NDArray[np.int64]) -> DirectedDistances:
+    """Return the distances of samples (n, 3) of one surface, and of its vertices `corners` (c, 3), to another surface.
 
-    The largest distance of a mesh from a surface is often at a vertex, which samples only come near to.
+    The largest distance of a mesh to a surface is often at a vertex, which no sample hits exactly.
     """
     distances = _core.closest_surface_points(vertices, faces, np.vstack([samples, corners])).distance
-    return OneWay(float(np.sqrt(np.mean(distances[: len(samples)] ** 2))), float(distances.max()))
+    return DirectedDistances(float(np.sqrt(np.mean(distances[: len(samples)] ** 2))), float(distances.max()))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Measuring a result against the truth."""
+"""Evaluation of a result against the true surface."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 from hdpea import _core
 from hdpea.errors import core_errors_translated
 from hdpea.evaluation.curvature_metric import triangle_qualities
-from hdpea.evaluation.distances import OneWay, SampleDistances, distances_between, distances_to_surface
+from hdpea.evaluation.distances import DirectedDistances, SampleDistances, distances_between, distances_to_surface
 from hdpea.evaluation.normalization import NORMALIZATIONS, Normalization
 from hdpea.evaluation.scores import (
     DEGENERATE_ANGLE,
@@ -26,15 +26,16 @@ from hdpea.geometry.sampling import sample_surface
 Rows = NDArray[np.float64]
 
 FAR_APART = 0.25
-"""Mean distance from the truth, in longest sides, that no reconstruction has."""
+"""Root mean square distance to the truth, in longest sides, from which a wrong frame is suspected."""
 
-STRANGERS = "The result is far from the truth: are both in the same frame and units?"
+WRONG_FRAME = "The result is far from the truth: are both in the same frame and units?"
 
 
 def evaluate(vertices_in_world: Rows, faces: NDArray[np.int64], truth: Truth) -> Evaluation:
-    """Measure a result, (v, 3), (f, 3), in the units of the truth; every vertex has a face.
+    """Evaluate a mesh, vertices (v, 3) float64 and faces (f, 3) int64, against the truth, in the units of the truth.
 
-    The scores depend on the result, the truth and the options that the truth was prepared with, and on nothing else.
+    Every vertex must belong to a face. The scores depend only on the mesh, the truth and the options that the truth
+    was prepared with. ``docs/evaluation.md`` defines them.
 
     Raises
     ------
@@ -56,8 +57,8 @@ def evaluate(vertices_in_world: Rows, faces: NDArray[np.int64], truth: Truth) ->
     }
     in_world = {name: unit * truth.longest_side for name, unit in units.items()}
     kind = "points" if truth.surface is None else "mesh"
-    apart = max(way.rms for way in (to_result, to_truth) if way is not None)
-    notes = (STRANGERS,) if apart > FAR_APART else ()
+    apart = max(each.rms for each in (to_result, to_truth) if each is not None)
+    notes = (WRONG_FRAME,) if apart > FAR_APART else ()
     return Evaluation(topology, triangles, accuracy, in_world, kind, len(truth.points), truth.options, notes)
 
 
@@ -66,8 +67,8 @@ def _accuracy(
     normalization: Normalization,
     between: SampleDistances,
     floor: SampleDistances | None,
-    to_result: OneWay,
-    to_truth: OneWay | None,
+    to_result: DirectedDistances,
+    to_truth: DirectedDistances | None,
 ) -> Accuracy:
     def scores(distances: SampleDistances) -> SampleScores:
         return SampleScores(

@@ -8,16 +8,16 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class Normalization:
-    """A length of the true surface's bounding box that counts as 1, and the distance within which F1 finds points.
+    """The length of the true surface's bounding box that is the unit, and the distance threshold of F1 in it.
 
     Attributes
     ----------
     name
-        As in reports.
+        Key in the JSON report.
     title
-        For people.
+        Heading in tables.
     f1_threshold
-        In that unit.
+        Distance below which F1 counts a point as matched, in that unit.
     """
 
     name: str

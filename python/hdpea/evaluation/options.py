@@ -10,7 +10,7 @@ from hdpea.options import Checked, option
 
 @dataclass(frozen=True)
 class EvaluationOptions(Checked):
-    """How much is looked at."""
+    """How densely both surfaces are sampled."""
 
-    samples: int = option(100_000, "points drawn of each surface; more lower the sampling floor", minimum=1)
+    samples: int = option(100_000, "points drawn from each surface; more points lower the sampling floor", minimum=1)
     seed: int = option(0, "seed of these points; the same seed gives the same scores", minimum=0)

@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""All that is measured of a result."""
+"""The scores of a result."""
 
 from __future__ import annotations
 
 from dataclasses import asdict, dataclass
 from typing import Any
 
-from hdpea.evaluation.distances import OneWay
+from hdpea.evaluation.distances import DirectedDistances
 from hdpea.evaluation.normalization import NORMALIZATIONS
 from hdpea.evaluation.options import EvaluationOptions
 from hdpea.version import version
@@ -19,7 +19,7 @@ DEGENERATE_ANGLE = 1.0
 class SampleScores:
     """Scores between samples, as papers report them, in one unit of length.
 
-    ``chamfer`` is in squares of the unit, ``hausdorff`` in the unit; ``normal_consistency`` is None where normals are
+    ``chamfer`` is in the unit squared, ``hausdorff`` in the unit; ``normal_consistency`` is None where normals are
     unknown.
     """
 
@@ -31,35 +31,35 @@ class SampleScores:
 
 @dataclass(frozen=True)
 class Accuracy:
-    """How far the result is from the truth, in one unit of length.
+    """Distances between the result and the truth, in one unit of length.
 
     Attributes
     ----------
     samples
         Between samples of both.
     floor
-        The same of the truth against itself; None if it is only points.
+        The same between two samplings of the truth; None if the truth is a point cloud.
     to_result
-        From the truth to the result, exact.
+        Exact distances from the truth to the result.
     to_truth
-        From the result to the truth, exact; None if that is only points.
+        Exact distances from the result to the truth; None if the truth is a point cloud.
     chamfer, hausdorff
-        As in `samples`, exact; None if the truth is only points.
+        As in `samples`, but from the exact distances; None if the truth is a point cloud.
     """
 
     samples: SampleScores
     floor: SampleScores | None
-    to_result: OneWay
-    to_truth: OneWay | None
+    to_result: DirectedDistances
+    to_truth: DirectedDistances | None
 
     @property
     def chamfer(self) -> float | None:
-        """Exact mean squared distance one way plus that the other way."""
+        """Sum of the exact mean squared distances in both directions."""
         return None if self.to_truth is None else self.to_result.rms**2 + self.to_truth.rms**2
 
     @property
     def hausdorff(self) -> float | None:
-        """Exact largest distance of either way."""
+        """Largest exact distance in either direction."""
         return None if self.to_truth is None else max(self.to_result.max, self.to_truth.max)
 
 
@@ -70,14 +70,14 @@ class TriangleScores:
     Attributes
     ----------
     g
-        Mean quality under the curvature metric of the truth, 1 if all are equilateral there; None if the metric is
-        not known.
+        Mean quality under the curvature metric of the truth, 1 if all triangles are equilateral under it; None if the
+        metric is unknown.
     g_isotropic
-        Mean quality in space, where anisotropic triangles are meant to be bad.
+        Mean quality in Euclidean space, which is low by design for anisotropic triangles.
     degenerate
         Share of the triangles with an angle below ``DEGENERATE_ANGLE``.
     smallest_angle, mean_smallest_angle, largest_angle
-        Of all triangles; the mean of each one's smallest; of all.
+        Smallest angle of all triangles; mean of the smallest angle of each triangle; largest angle of all.
     """
 
     g: float | None
@@ -90,7 +90,7 @@ class TriangleScores:
 
 @dataclass(frozen=True)
 class Topology:
-    """What kind of surface the result is; `watertight`: every edge has exactly two faces."""
+    """Combinatorial properties of the result; it is `watertight` if every edge has exactly two faces."""
 
     vertices: int
     faces: int
@@ -108,22 +108,22 @@ class Topology:
 
 @dataclass(frozen=True)
 class Evaluation:
-    """Everything about one result.
+    """All scores of one result.
 
     Attributes
     ----------
     topology, triangles
         Of the result.
     accuracy, units
-        By name of the normalisation; the units in world units.
+        Distances by the name of the normalisation, and the length of each unit in world units.
     truth
         ``mesh`` or ``points``.
     truth_points
-        How many points stand for the truth.
+        Number of points that represent the truth.
     options
         How the surfaces were sampled.
     notes
-        Sentences on what is odd about the pair.
+        Warnings, as sentences.
     """
 
     topology: Topology
@@ -136,7 +136,7 @@ class Evaluation:
     notes: tuple[str, ...] = ()
 
     def as_dict(self) -> dict[str, Any]:
-        """Return all of it, fit for JSON; lengths as shares of the unit, and that unit in world units."""
+        """Return all scores as a dictionary for JSON; lengths are in the unit, which is given in world units."""
         accuracy = {
             each.name: {
                 "unit": self.units[each.name],

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""An evaluation as the table that people read."""
+"""An evaluation as a table of text."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ UNKNOWN = "-"
 
 
 def describe(evaluation: Evaluation) -> str:
-    """Return all scores as a table: what the mesh is, both normalisations side by side, the triangles."""
+    """Return all scores as a table: topology, distances in both normalisations side by side, triangle shapes."""
     return "\n".join(_lines(evaluation))
 
 
@@ -76,10 +76,10 @@ def _floored(scores: SampleScores, floor: SampleScores | None, name: str, scale:
 def _exact(both: list[Accuracy]) -> Iterator[str]:
     yield _row("  CD (1e-5)", *(_number(each.chamfer, 1e5, 3) for each in both))
     yield _row("  HD (1e-2)", *(_number(each.hausdorff, 1e2, 3) for each in both))
-    for way, name in (("truth to result", "to_result"), ("result to truth", "to_truth")):
+    for direction, name in (("truth to result", "to_result"), ("result to truth", "to_truth")):
         for kind in ("rms", "max"):
             values = (getattr(getattr(each, name), kind, None) for each in both)
-            yield _row(f"  {way}, {kind} (1e-2)", *(_number(value, 1e2, 4) for value in values))
+            yield _row(f"  {direction}, {kind} (1e-2)", *(_number(value, 1e2, 4) for value in values))
 
 
 def _triangles(triangles: TriangleScores) -> Iterator[str]:

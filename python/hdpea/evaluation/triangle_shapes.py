@@ -8,9 +8,9 @@ from numpy.typing import NDArray
 
 
 def triangle_angles(vertices: NDArray[np.float64], faces: NDArray[np.int64]) -> NDArray[np.float64]:
-    """Return the angles (f, 3) of triangles in degrees, at their corners; 0, 0 and 180 where there is no area.
+    """Return the angles (f, 3) of triangles in degrees, at their corners; 0, 0 and 180 for a triangle without area.
 
-    By the arctangent of area and dot product, which is exact for slivers, where an arccosine is not.
+    By the arctangent of cross and dot product, which is accurate for slivers, where the arccosine is not.
     """
     corners = vertices[faces]
     ahead, back = (np.roll(corners, shift, axis=1) - corners for shift in (-1, 1))

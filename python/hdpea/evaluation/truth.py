@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The true surface, prepared once for any number of results."""
+"""The true surface, prepared once for the evaluation of any number of results."""
 
 from __future__ import annotations
 
@@ -23,24 +23,24 @@ Rows = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Truth:
-    """A true surface, or points of one, in a frame centred on its box, whose longest side is 1.
+    """A true surface, or points on one, in a frame centred on its bounding box, whose longest side is 1.
 
     Attributes
     ----------
     centre_in_world, longest_side
-        (3,) float64 and a length in world units: the frame.
+        The frame: (3,) float64, and a length in world units.
     diagonal
-        Of the box, in longest sides: from 1 to sqrt(3).
+        Diagonal of the box, in longest sides: from 1 to sqrt(3).
     points, normals
-        (n, 3) float64, on the surface; normals are unit, 0 where unknown, None if all are.
+        (n, 3) float64, on the surface; normals are unit, 0 where unknown, None if all are unknown.
     surface
         The mesh; None if only points are known.
     metric
         The curvature metric; None if the surface is not known.
     floor
-        The surface against itself, by other samples: no result can do better; None if it is not known.
+        Distances between two samplings of the surface, which no result can undercut; None without a surface.
     options
-        How it was sampled.
+        How the surface was sampled.
     """
 
     centre_in_world: Rows
@@ -54,17 +54,17 @@ class Truth:
     options: EvaluationOptions
 
     def from_world(self, points_in_world: Rows) -> Rows:
-        """Return points (n, 3) of the world in this frame."""
+        """Transform points (n, 3) from world units to this frame."""
         return (points_in_world - self.centre_in_world) / self.longest_side
 
 
 def seeds(options: EvaluationOptions) -> tuple[int, ...]:
-    """Return the seeds of the samples of the truth, of its floor, of its metric, and of results: each another one."""
+    """Return different seeds for the samples of the truth, of its floor, of its metric, and of results."""
     return tuple(int(each) for each in np.random.SeedSequence(options.seed).generate_state(4))
 
 
 def truth_of_mesh(vertices_in_world: Rows, faces: NDArray[np.int64], options: EvaluationOptions | None = None) -> Truth:
-    """Prepare a mesh (v, 3), (f, 3), open or closed, every vertex of which has a face.
+    """Prepare a mesh as the truth: vertices (v, 3), faces (f, 3), open or closed, every vertex with a face.
 
     Raises
     ------
@@ -86,10 +86,10 @@ def truth_of_mesh(vertices_in_world: Rows, faces: NDArray[np.int64], options: Ev
 def truth_of_points(
     points_in_world: Rows, normals: Rows | None = None, options: EvaluationOptions | None = None
 ) -> Truth:
-    """Prepare points (n, 3) of a surface, without noise, and their unit normals (n, 3), 0 where unknown.
+    """Prepare noise-free points (n, 3) of a surface as the truth, with unit normals (n, 3), 0 where unknown.
 
-    All of them are taken, whatever the number of samples. What needs the surface between them is not known: the
-    distances from the result back to it, G and the floor.
+    All points are used, whatever the number of samples. Scores that need the surface between them are unknown: the
+    exact distances from the result to the truth, G and the floor.
 
     Raises
     ------

@@ -10,13 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hdpea import _core
-
-BENDING_LENGTH = 0.6
-"""Default bending length in spacings of the mesh's vertices: shorter, and tangent planes of neighbours disagree."""
-
-CURVATURE_RADIUS = 1.0
-"""Default radius, in the same spacings, in which curvature is fitted to the points of a cloud: a little more than the
-embedding can follow."""
+from hdpea.options.embedding import BENDING_LENGTH, CURVATURE_RADIUS
 
 LARGEST = 1e9
 """No number of a metric that is read from a file may be larger."""

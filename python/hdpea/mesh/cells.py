@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hdpea import _core
+from hdpea.geometry.tensors import symmetric_tensors
 
 CELL_NEIGHBORS = 40
 """Nearest particles whose bisectors cut a cell: enough for disks of up to two mean distances."""
@@ -64,7 +65,7 @@ def _planes(
     # Where points lie in heaps, seven particles may be in one place.
     means = np.maximum(squared.mean(axis=1, keepdims=True), np.finfo(float).tiny)
     weights = np.exp(-squared / means) * same_sheet
-    covariances = np.einsum("mk,mki,mkj->mij", weights, offsets, offsets)
+    covariances = symmetric_tensors(weights, offsets)
     covariances += 1e-3 * squared.mean() * np.einsum("mbi,mbj->mij", bases, bases)
     vectors = np.linalg.eigh(covariances).eigenvectors
     return np.ascontiguousarray(vectors[:, :, -2:].swapaxes(1, 2))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A batch of clouds, one after the other, as the network reads it."""
+"""A batch of clouds, the input of the network."""
 
 from __future__ import annotations
 
@@ -12,17 +12,24 @@ from numpy.typing import NDArray
 from torch import Tensor
 
 from hdpea import _core
-from hdpea.geometry.metric import CURVATURE_RADIUS
+from hdpea.geometry.tensors import symmetric_tensors, tangent_directions
+from hdpea.options.embedding import CURVATURE_RADIUS
+
+FAR = 8192.0
+"""Distance from the centre, in spacings, beyond which gaps are narrowed: float32 and voxels reach little farther."""
+
+GAP = 64.0
+"""Width, in spacings, that a gap of empty space is cut down to: more than any layer sees across."""
 
 
 @dataclass
 class Clouds:
-    """Clouds side by side; nothing is padded. Lengths are in spacings, sqrt(area / vertices) of the mesh to come.
+    """Clouds one after the other, without padding. Lengths are in spacings, sqrt(area / vertices) of the mesh to make.
 
     Attributes
     ----------
     points
-        (n, 3) float32, relative to the centre of each cloud.
+        (n, 3) float32, relative to the centre of each cloud; clusters that are very far apart are moved together.
     normals
         (n, 3) float32, unit.
     shape
@@ -62,7 +69,7 @@ class Clouds:
         """
         centred = centred_points(points)
         return cls(
-            torch.from_numpy(centred.astype(np.float32)),
+            torch.from_numpy(moved_together(centred).astype(np.float32)),
             torch.from_numpy(normals.astype(np.float32)),
             torch.from_numpy(shape_operators(centred, normals, neighbors, curvature_radius).astype(np.float32)),
             torch.from_numpy(neighbors),
@@ -92,10 +99,27 @@ class Clouds:
 
 
 def centred_points(points: NDArray[np.floating]) -> NDArray[np.float64]:
-    """Return points (n, 3) relative to the middle of their bounding box, which no order of them changes."""
+    """Return points (n, 3) relative to the middle of their bounding box, which does not depend on their order."""
     wide = np.asarray(points, np.float64)
     lowest = wide.min(axis=0)
     return np.ascontiguousarray(wide - (lowest + (wide.max(axis=0) - lowest) / 2))
+
+
+def moved_together(points: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return points (n, 3), in spacings, with wide gaps between them narrowed where the cloud is very large.
+
+    Clusters that are far apart for their size would lie beyond the voxels, and float32 would not resolve them. Gaps
+    wider than ``GAP`` along an axis are cut down to it, which only translates the clusters. A cloud that lies within
+    ``FAR`` of its centre is returned unchanged.
+    """
+    if not len(points) or abs(points).max() <= FAR:
+        return points
+    moved = np.empty_like(points)
+    for axis, column in enumerate(points.T):
+        order = np.argsort(column, kind="stable")
+        steps = np.diff(column[order], prepend=column[order[0]])
+        moved[order, axis] = np.cumsum(np.minimum(steps, GAP))
+    return centred_points(moved)
 
 
 def shape_operators(
@@ -106,10 +130,5 @@ def shape_operators(
 ) -> NDArray[np.float64]:
     """Return the shape operator (n, 6) of a cloud as ``Clouds.shape``, fitted within `radius` spacings."""
     curvature = _core.estimate_curvature(points, normals, neighbors, radius)
-    first = curvature.direction1
-    second = np.cross(normals, first)
-    k1, k2 = curvature.principal.T[:, :, None]
-    rows, columns = (0, 1, 2, 0, 0, 1), (0, 1, 2, 1, 2, 2)
-    operators: NDArray[np.float64] = k1 * first[:, rows] * first[:, columns]
-    operators += k2 * second[:, rows] * second[:, columns]
-    return operators
+    operators = symmetric_tensors(curvature.principal, tangent_directions(normals, curvature.direction1))
+    return operators[:, (0, 1, 2, 0, 0, 1), (0, 1, 2, 1, 2, 2)]

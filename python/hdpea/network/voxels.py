@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Voxels that hold points: one grid per level of the U-Net, with what attention and convolution need of each."""
+"""Voxels that contain points: one grid per level of the U-Net, with what attention and convolution need."""
 
 from __future__ import annotations
 
@@ -13,6 +13,9 @@ from hdpea.network.curves import BITS, CURVES, curve_keys
 
 MIDDLE = 1 << (BITS - 1)
 """The cell at a cloud's centre, so that no coordinate is negative."""
+
+CELLS = 1 << BITS
+"""Cells along each axis. Space is periodic beyond them: points farther from the centre share cells with nearer ones."""
 
 
 @dataclass
@@ -32,13 +35,16 @@ class Voxels:
 
     @classmethod
     def holding(cls, cells: Tensor, batch: Tensor) -> tuple[Voxels, Tensor]:
-        """Return the distinct voxels among `cells` (n, 3), and for each of those given which it is (n,)."""
-        keys, index = torch.unique(_packed(cells, batch), return_inverse=True)
-        axes = [(keys >> (BITS * axis)) & ((1 << BITS) - 1) for axis in (2, 1, 0)]
+        """Return the distinct voxels of `cells` (n, 3), and the voxel (n,) of each cell.
+
+        Cells count modulo ``CELLS``, a power of two; as wide gaps are narrowed, hardly any cloud reaches so far.
+        """
+        keys, index = torch.unique(_packed(cells & (CELLS - 1), batch), return_inverse=True)
+        axes = [(keys >> (BITS * axis)) & (CELLS - 1) for axis in (2, 1, 0)]
         return cls(torch.stack(axes, dim=1), keys >> (3 * BITS)), index
 
     def coarser(self) -> tuple[Voxels, Tensor]:
-        """Return voxels of twice the side, and for each of these which of those it lies in (v,)."""
+        """Return voxels of twice the side, and which of them (v,) contains each of these."""
         # The middle stays a corner of voxels: MIDDLE is even at every level that is ever used.
         return Voxels.holding(self.cells >> 1, self.batch)
 
@@ -64,7 +70,7 @@ class Voxels:
         keys = _packed(self.cells, self.batch)
         steps = torch.arange(-1, 2, device=keys.device)
         offsets = torch.cartesian_prod(steps, steps, steps)  # (27, 3)
-        wanted = _packed(self.cells[None] + offsets[:, None], self.batch[None])  # (27, v)
+        wanted = _packed((self.cells[None] + offsets[:, None]) & (CELLS - 1), self.batch[None])  # (27, v)
         found = torch.searchsorted(keys, wanted).clamp_max(len(keys) - 1)
         exists = keys[found] == wanted
         targets = torch.arange(len(keys), device=keys.device).expand_as(found)

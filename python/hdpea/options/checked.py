@@ -9,35 +9,33 @@ from typing import Any
 
 from hdpea.errors import UsageError
 
+LARGEST = 2**31 - 1
+"""Of whole numbers, unless an option says otherwise: more of anything is a slip."""
+
 
 def option(default: Any, help: str, **metadata: Any) -> Any:
     """Return a dataclass field that carries its help text and what is legal: ``choices``, ``minimum``, ``maximum``."""
     return field(default=default, metadata={"help": help, **metadata})
 
 
-LARGEST_COUNT = 2**31 - 1
-"""Of counts, and whatever else the core holds in a number of 32 bits: their ``maximum``."""
-
-LARGEST_WHOLE = 2**63 - 1
-"""Of any whole number."""
-
-
 def _check(field: Field[Any], value: Any) -> None:
+    if value is None:
+        return
     choices = field.metadata.get("choices")
-    minimum, maximum = field.metadata.get("minimum"), field.metadata.get("maximum")
+    whole, number = field.type in {"int", "int | None"}, field.type in {"float", "float | None"}
+    minimum, maximum = field.metadata.get("minimum"), field.metadata.get("maximum", LARGEST if whole else None)
+    if whole and not hasattr(value, "__index__"):
+        raise UsageError(f"`{field.name}` is a whole number, not {value!r}.")
+    if number and not hasattr(value, "__float__"):
+        raise UsageError(f"`{field.name}` is a number, not {value!r}.")
     if choices is not None and value not in choices:
         raise UsageError(f"`{field.name}` is one of {', '.join(choices)}, not {value!r}.")
     if isinstance(value, float) and not math.isfinite(value):
         raise UsageError(f"`{field.name}` is a number, not {value}.")
-    if maximum is None and isinstance(value, int):
-        maximum = LARGEST_WHOLE
-    try:
-        if minimum is not None and value is not None and not value >= minimum:
-            raise UsageError(f"`{field.name}` is at least {minimum}, not {value}.")
-        if maximum is not None and value is not None and not value <= maximum:
-            raise UsageError(f"`{field.name}` is at most {maximum}, not {value}.")
-    except TypeError as error:
-        raise UsageError(f"`{field.name}` is a number, not {value!r}.") from error
+    if minimum is not None and not value >= minimum:
+        raise UsageError(f"`{field.name}` is at least {minimum}, not {value}.")
+    if maximum is not None and not value <= maximum:
+        raise UsageError(f"`{field.name}` is at most {maximum}, not {value}.")
 
 
 @dataclass(frozen=True)

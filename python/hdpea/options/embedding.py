@@ -9,6 +9,13 @@ from hdpea.errors import UsageError
 from hdpea.options.checked import Checked, option
 from hdpea.options.lengths import Length
 
+BENDING_LENGTH = 0.6
+"""Default bending length in spacings of the mesh's vertices: shorter, and tangent planes of neighbours disagree."""
+
+CURVATURE_RADIUS = 1.0
+"""Default radius, in the same spacings, in which curvature is fitted to the points of a cloud: a little more than the
+embedding can follow."""
+
 
 @dataclass(frozen=True)
 class EmbeddingOptions(Checked):

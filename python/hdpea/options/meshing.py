@@ -6,7 +6,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from hdpea.errors import UsageError
-from hdpea.options.checked import LARGEST_COUNT, Checked, option
+from hdpea.options.checked import Checked, option
 from hdpea.options.lengths import Length
 
 POINTS_PER_VERTEX = 8
@@ -30,7 +30,6 @@ class MeshingOptions(Checked):
         "drop connected pieces of fewer faces than this, or of as small a share of the mesh that is to be simplified; "
         "the largest stays",
         minimum=0,
-        maximum=LARGEST_COUNT,
     )
 
     def __post_init__(self) -> None:

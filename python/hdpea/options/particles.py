@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from hdpea.options.checked import LARGEST_COUNT, Checked, option
+from hdpea.options.checked import Checked, option
 from hdpea.options.meshing import POINTS_PER_VERTEX
 
 ENOUGH_PARTICLES, ENOUGH_PER_VERTEX = 20_000, 2
@@ -25,5 +25,5 @@ class ParticleOptions(Checked):
         f"{POINTS_PER_VERTEX} points, at most {ENOUGH_PARTICLES:,} or {ENOUGH_PER_VERTEX} for each vertex",
         minimum=4,
     )
-    iterations: int = option(100, "steps of the particles' energy descent", minimum=0, maximum=LARGEST_COUNT)
-    seed: int = option(0, "seed of everything random; the same seed gives the same bytes", minimum=0)
+    iterations: int = option(100, "steps of the particles' energy descent", minimum=0, maximum=100_000)
+    seed: int = option(0, "seed of everything random; the same seed gives the same bytes", minimum=0, maximum=2**63 - 1)

@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from hdpea.options.checked import LARGEST_COUNT, Checked, option
+from hdpea.options.checked import Checked, option
 
 
 @dataclass(frozen=True)
@@ -13,4 +13,4 @@ class RefinementOptions(Checked):
     """How the mesh is fitted to the points afterwards (``hdpea.mesh.refinement``)."""
 
     refine: bool = option(True, "fit the vertices to the points by least squares")
-    rounds: int = option(2, "rounds of projection and fitting", minimum=0, maximum=LARGEST_COUNT)
+    rounds: int = option(2, "rounds of projection and fitting", minimum=0, maximum=1_000)

@@ -110,9 +110,8 @@ def oriented_surface(
         # Where all normals are to be estimated, the signs of given ones count only if they are asked for.
         trusted = given if options.orient == "file" else np.where(usable[:, None], given, 0)
         evidence = SignEvidence(trusted, ~usable, nearest, roughness)
-        seen_from = sensors_in_world if options.viewpoint is None else options.viewpoint.as_array()
-        towards = None if seen_from is None else frame.to_unit(seen_from)
-        orientation = orient(points, directions, evidence, options.orient, towards, of_phase(progress, "normals"))
+        seen_from = _seen_from(frame, sensors_in_world, options) if options.orient == "viewpoint" else None
+        orientation = orient(points, directions, evidence, options.orient, seen_from, of_phase(progress, "normals"))
         if options.orient == "auto":
             choices += (Choice("orient", orientation.method, "", orientation.why),)
         consistency = evidence.consistency(points)
@@ -120,6 +119,20 @@ def oriented_surface(
     surface = Surface.of(frame, points, orientation.normals, neighbors)
     reoriented = orientation.method != "file"
     return OrientedSurface(surface, roughness, int((~usable).sum()), consistency, reoriented, choices)
+
+
+def _seen_from(frame: UnitFrame, sensors_in_world: Vectors | None, options: NormalOptions) -> Vectors | None:
+    """Return the viewpoint (3,), or the sensor of each point (n, 3), in the unit frame."""
+    seen_from = sensors_in_world if options.viewpoint is None else options.viewpoint.as_array()
+    if seen_from is None:
+        return None
+    with np.errstate(over="ignore"):
+        in_unit = frame.to_unit(seen_from)
+    if not np.isfinite(in_unit).all():
+        raise UnreadableInput(
+            "The viewpoint is too far from the points for double precision.", "Give it in the unit of the points."
+        )
+    return in_unit
 
 
 def _directions(

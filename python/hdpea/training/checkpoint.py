@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Checkpoints: everything that training needs to go on as if it had never stopped, and networks from them."""
+"""Checkpoints: everything needed to resume a training as if it had never stopped, and networks from them."""
 
 from __future__ import annotations
 
@@ -29,8 +29,7 @@ FORMAT = 1
 class Checkpoint:
     """The state of a training after `step` steps.
 
-    Nothing random is kept because nothing random runs on: crops and the order of curves are functions of the
-    seed and the step.
+    No state of a random generator is stored: crops and the order of curves are functions of the seed and the step.
 
     Attributes
     ----------
@@ -41,7 +40,7 @@ class Checkpoint:
     step
         Steps done.
     weights, averaged
-        The network's parameters, and their running average, which is what is judged and used.
+        The network's parameters, and their running average, which is validated and used.
     optimizer
         The optimizer's state.
     best
@@ -79,7 +78,7 @@ class Checkpoint:
         broken = f"{path} is truncated, or no checkpoint."
         try:
             with path.open("rb") as file:
-                # What torch does with other files is to read them as an old format, and to fail in many ways.
+                # torch reads any other file as an old format, and fails in many ways.
                 if not zipfile.is_zipfile(file):
                     raise UnreadableInput(broken, hint)
             content = torch.load(path, map_location="cpu", weights_only=True)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Crops of clouds, each a function of the dataset, the seed and its number alone: training can go on anywhere."""
+"""Crops of clouds, each a function of the dataset, the seed and its number only: training can resume at any step."""
 
 from __future__ import annotations
 
@@ -20,22 +20,22 @@ from hdpea.training.losses import Truth
 from hdpea.training.options import CropOptions
 
 ORDER, CROP = 0, 1
-"""What a stream of random numbers is for."""
+"""Purposes of the streams of random numbers."""
 
 
 class Samples(Protocol):
-    """What training needs of a dataset."""
+    """The interface of a dataset to train on."""
 
     @property
     def names(self) -> Sequence[str]:
-        """The samples, in an order that stays."""
+        """The names of the samples, in a fixed order."""
 
     @property
     def metric(self) -> ScaledMetric:
         """The metric of their ground truth, in spacings."""
 
     def read(self, name: str) -> Sample:
-        """Read one."""
+        """Read a sample."""
 
     def spacing(self, name: str) -> float:
         """Return the unit of the lengths of its ground truth, in unit length."""
@@ -43,14 +43,14 @@ class Samples(Protocol):
 
 @dataclass
 class Crop:
-    """A part of a cloud as the network sees it, and what is true of it; n points."""
+    """A part of a cloud, n points, as input of the network, with its ground truth."""
 
     clouds: Clouds
     truth: Truth
 
     @classmethod
     def together(cls, crops: Sequence[Crop]) -> Crop:
-        """Return crops as one batch; each counts the same, however many points it has."""
+        """Join crops into one batch; each has the same total weight, however many points it has."""
         clouds = Clouds.together([each.clouds for each in crops])
         joined = {
             name: torch.cat([getattr(each.truth, name) for each in crops])
@@ -67,7 +67,7 @@ class Crop:
 
 
 def crop_number(number: int, samples: Samples, options: CropOptions, neighbors: int, seed: int) -> Crop:
-    """Return the crop of that number: in each epoch, every sample once, in an order of the epoch's own."""
+    """Return crop `number`: each epoch takes every sample once, in an order of its own."""
     epoch, place = divmod(number, len(samples.names))
     order = np.random.default_rng((seed, ORDER, epoch)).permutation(len(samples.names))
     name = samples.names[order[place]]
@@ -76,7 +76,7 @@ def crop_number(number: int, samples: Samples, options: CropOptions, neighbors: 
 
 
 def cut_crop(sample: Sample, spacing: float, options: CropOptions, neighbors: int, random: np.random.Generator) -> Crop:
-    """Cut, thin, turn and disturb a part of a sample, in spacings; with `neighbors` nearest points of each point."""
+    """Cut a part of a sample, thin, rotate and perturb it, in spacings; each point gets its nearest `neighbors`."""
     count = len(sample.points)
     size = int(random.integers(options.least_points, options.most_points, endpoint=True))
     density = random.integers(options.least_density, options.most_density, endpoint=True)
@@ -98,7 +98,7 @@ def cut_crop(sample: Sample, spacing: float, options: CropOptions, neighbors: in
     if random.random() < options.tilted_share:
         normals = normals + options.tilt * random.random() ** 2 * random.standard_normal(normals.shape)
     normals = normals / np.linalg.norm(normals, axis=1, keepdims=True)
-    # The solver starts from the normal in the first three columns, so they turn with the cloud.
+    # The first three columns of psi start as the normal in the solver, so they rotate with the cloud.
     psi = np.hstack([sample.psi[chosen, :3] @ matrix.T, sample.psi[chosen, 3:]]) / spacing
 
     nearest = _core.nearest_neighbors(points, min(neighbors, len(chosen) - 1))
@@ -114,7 +114,7 @@ def _tensor(array: NDArray[np.floating]) -> torch.Tensor:
 
 
 def _orthogonal(kind: str, random: np.random.Generator) -> NDArray[np.float64]:
-    """Return a random orthogonal matrix (3, 3): of all, of the paper's ten, or the identity."""
+    """Return a random orthogonal matrix (3, 3): any, one of the ten of HD-PEA, or the identity."""
     if kind == "any":
         # The negative of a rotation is a reflection.
         return random_rotation(random) * float(random.choice([-1.0, 1.0]))

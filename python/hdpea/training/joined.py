@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Several datasets as one: clean clouds beside simulated scans."""
+"""Several datasets as one, such as clean clouds and simulated scans."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from hdpea.training.crops import Samples
 
 
 class Joined:
-    """The samples of several datasets, one dataset after the other; names say which, since two may share one.
+    """The samples of several datasets, one after the other; a number makes equal names unique.
 
     Raises
     ------
@@ -28,7 +28,7 @@ class Joined:
 
     @property
     def names(self) -> list[str]:
-        """The names, with the number of their dataset."""
+        """The names, each after the number of its dataset."""
         return list(self._homes)
 
     @property
@@ -37,7 +37,7 @@ class Joined:
         return self._metric
 
     def read(self, name: str) -> Sample:
-        """Read one."""
+        """Read a sample."""
         dataset, own_name = self._homes[name]
         return dataset.read(own_name)
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a training leaves behind: its numbers, the state to go on from, the best weights so far."""
+"""The files of a training: metrics, the state to resume from, the best weights so far."""
 
 from __future__ import annotations
 
@@ -17,11 +17,11 @@ from hdpea.training.steps import Training
 from hdpea.training.validation import validate
 
 LAST, BEST, WEIGHTS, METRICS = "last.pt", "best.pt", "best.safetensors", "metrics.jsonl"
-"""The files of a training: to go on from, the same when it was best, to use, to look at."""
+"""File names: checkpoint to resume from, checkpoint of the best validation, its weights, metrics."""
 
 
 class Journal:
-    """Writes for a training into a folder; only the first of several processes writes."""
+    """Writes metrics, checkpoints and weights of a training to a folder, in the first of its processes only."""
 
     def __init__(self, training: Training, out: Path, board: bool, tell: Callable[[str], None]) -> None:
         self.training, self.out, self.tell = training, out, tell
@@ -34,22 +34,22 @@ class Journal:
         self._count, self._since = 0, time.monotonic()
 
     def add(self, parts: Mapping[str, float]) -> None:
-        """Take note of a step."""
+        """Add the terms of the loss of one step."""
         self._count += 1
         for name, value in parts.items():
             self._sums[name] = self._sums.get(name, 0.0) + value
 
     def write_means(self) -> None:
-        """Write the means of the steps since the last time."""
+        """Write the means over the steps since the last call."""
         means = {name: value / self._count for name, value in self._sums.items()}
         means["seconds_per_step"] = (time.monotonic() - self._since) / self._count
         self._write(self.training.workers.mean(means))
         self._begin()
 
     def validate(self, validation: Samples) -> None:
-        """Reconstruct clouds from the averaged weights, write the scores, keep the weights if they are the best."""
+        """Reconstruct clouds with the averaged weights, write the scores, keep the weights if they are the best."""
         training, started = self.training, time.monotonic()
-        # Spread over the names, which tell of families.
+        # Evenly over the names, since similar names are often similar shapes.
         count = min(training.options.validation_clouds, len(validation.names))
         names = [validation.names[place * len(validation.names) // count] for place in range(count)]
         if self.writes and names:

@@ -31,22 +31,22 @@ def train(
     board: bool = False,
     tell: Callable[[str], None] = lambda _: None,
 ) -> Training:
-    """Train a network, or go on where the folder `out` says that a training was stopped.
+    """Train a network, or resume the training whose last checkpoint is in the folder `out`.
 
     Parameters
     ----------
     samples, validation
-        What is trained on, and what is reconstructed every so often to choose the best weights.
+        The training set, and the set of which clouds are reconstructed at intervals to choose the best weights.
     out
         A folder for ``last.pt``, ``best.pt``, ``best.safetensors`` and ``metrics.jsonl``.
     stopped
-        Asked between steps; True ends the training with a checkpoint and ``Interrupted``.
+        Called between steps; True ends the training with a checkpoint and ``Interrupted``.
     workers
-        Which of the processes that train together this is; only the first writes.
+        The rank of this process among those that train together; only the first writes.
     board
-        Whether to write for TensorBoard too.
+        Whether to write for TensorBoard as well.
     tell
-        Is given each line of the journal.
+        Called with each line of the journal.
 
     Raises
     ------
@@ -55,7 +55,7 @@ def train(
     UnreadableInput
         If that checkpoint cannot be read.
     Interrupted
-        If `stopped` asked for it.
+        If `stopped` returned True.
     """
     if validation is not None:
         require_same_metric(samples, validation, "the validation set")
@@ -76,7 +76,7 @@ def _run(training: Training, validation: Samples | None, journal: Journal, stopp
             journal.write_means()
         if validation is not None and (training.step % options.validate_every == 0 or ended):
             journal.validate(validation)
-        # One process's signal is all processes' end.
+        # All processes end when one of them is asked to.
         ending = training.workers.mean({"ending": float(stopped())})["ending"] > 0
         if ending or ended or time.monotonic() - saved > 60 * options.save_minutes:
             journal.save(LAST)
@@ -86,7 +86,7 @@ def _run(training: Training, validation: Samples | None, journal: Journal, stopp
 
 
 def _prefetched(training: Training) -> Iterator[Crop]:
-    """Yield the crops of all steps that are left, each cut while the one before is learnt from."""
+    """Yield the crops of all remaining steps, each cut while the network trains on the one before."""
     with ThreadPoolExecutor(1) as pool:
         following = pool.submit(training.crop, training.step)
         for step in range(training.step, training.steps):

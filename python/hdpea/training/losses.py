@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a prediction of psi is judged by in training; each judges points one by one and is 0 at the truth.
+"""Losses of a predicted psi; each is a weighted mean over the points, and 0 at the truth.
 
-Distances and local metric do not see the gauge (any rotation or shift of psi), nor does flatness; the pointwise
-errors do. Distances alone reward jitter: a network that does not yet know where to stretch gets them right on
-average by making psi noisy, which wrecks the mesh. So the ``local`` loss is of first order: the metric that the
-best affine map of psi induces, blind to noise, and the noise itself on top.
+The distance, metric and flatness terms are invariant to rotations and shifts of psi; the pointwise errors are not.
+Distances alone reward noise: a network that does not yet know where to stretch matches them on average by making psi
+noisy, which ruins the mesh. So the ``local`` loss is first-order: it compares the metric that the best affine map of
+psi induces, which noise does not affect, and penalises the noise (the residual of that map) separately.
 """
 
 from __future__ import annotations
@@ -19,12 +19,12 @@ from hdpea.network.layers import rows
 from hdpea.training.options import LossOptions
 
 FIT_NEIGHBORS = 16
-"""Nearest points that the local metric is fitted to."""
+"""Nearest points to which the local metric is fitted."""
 
 
 @dataclass
 class Truth:
-    """What is true of n points; lengths in spacings.
+    """The ground truth at n points; lengths are in spacings.
 
     Attributes
     ----------
@@ -37,7 +37,7 @@ class Truth:
     neighbors
         (n, k) int64: nearest points, nearest first.
     weights
-        (n,) float32, summing to 1: how much each point counts.
+        (n,) float32, summing to 1: the weight of each point in the loss.
     """
 
     points: Tensor
@@ -52,9 +52,9 @@ class Truth:
 
 
 def distance_errors(psi: Tensor, truth: Truth, neighbors: int) -> tuple[Tensor, Tensor]:
-    """Return by how much distances in R^8 to the nearest `neighbors` are wrong, and those distances (n, k).
+    """Return the errors (n, k) of distances in R^8 to the nearest `neighbors`, and the true distances (n, k).
 
-    Both embeddings begin with the true points, so that noise on the points is not put down to psi.
+    Both embeddings begin with the true points, so that noise on the points is not attributed to psi.
     """
     nearest = truth.neighbors[:, :neighbors]
     squared_in_space = _squared_distances(truth.points, nearest)  # (n, k)
@@ -64,14 +64,14 @@ def distance_errors(psi: Tensor, truth: Truth, neighbors: int) -> tuple[Tensor, 
 
 
 def metric_errors(gradient: Tensor, true_gradient: Tensor) -> Tensor:
-    """Return how far the metrics (n,) are apart that psi's gradients (n, 2, 5) along two tangents induce.
+    """Return the distance (n,) between the metrics induced by gradients of psi (n, 2, 5) along two tangents.
 
-    The root of Jeffreys' divergence: with l the stretches of one metric in terms of the other, the root of
-    sum (l + 1/l) / 2 - 1; about |log l| where they are close, the same for twice and half.
+    The root of Jeffreys' divergence: with l the stretches of one metric relative to the other, the root of
+    sum (l + 1/l) / 2 - 1; about |log l| where they are close, and equal for factors of two and one half.
     """
     metric, true = _metric(gradient), _metric(true_gradient)
     apart = metric - true
-    # tr(A^-1 B) + tr(B^-1 A) - 4 = tr(A^-1 (A - B) B^-1 (A - B)), in which nothing cancels.
+    # tr(A^-1 B) + tr(B^-1 A) - 4 = tr(A^-1 (A - B) B^-1 (A - B)), which avoids cancellation.
     product = (_adjugate(metric) @ apart) * (_adjugate(true) @ apart).mT
     divergence: Tensor = product.sum(dim=(1, 2)) / (2 * _determinant(metric) * _determinant(true))
     # The root of 0 has no gradient.
@@ -80,12 +80,12 @@ def metric_errors(gradient: Tensor, true_gradient: Tensor) -> Tensor:
 
 
 def loss_parts(psi: Tensor, truth: Truth, options: LossOptions) -> dict[str, Tensor]:
-    """Return the loss and, detached, what it is made of.
+    """Return the loss and, detached, its terms.
 
     Parameters
     ----------
     psi
-        (n, 5) as predicted.
+        (n, 5) predicted.
 
     Returns
     -------
@@ -93,8 +93,8 @@ def loss_parts(psi: Tensor, truth: Truth, options: LossOptions) -> dict[str, Ten
     """
     errors, true_distances = distance_errors(psi, truth, options.distance_neighbors)
     around = Neighborhoods.of(truth.points, truth.normals, truth.neighbors[:, :FIT_NEIGHBORS])
-    gradient, left = around.fit(psi)
-    true_gradient, true_left = around.fit(truth.psi)
+    gradient, residual = around.fit(psi)
+    true_gradient, true_residual = around.fit(truth.psi)
 
     def mean(each: Tensor) -> Tensor:
         return (each * truth.weights).sum()
@@ -102,8 +102,8 @@ def loss_parts(psi: Tensor, truth: Truth, options: LossOptions) -> dict[str, Ten
     scale = mean(true_distances.mean(dim=1)).clamp_min(1e-12)
     distance = mean(errors.abs().mean(dim=1)) / scale
     metric = mean(metric_errors(gradient, true_gradient))
-    # Less of it than the truth has is no merit: sharp edges bend.
-    flatness = mean((left - true_left).clamp_min(0))
+    # Only what exceeds the truth counts: psi bends at sharp edges.
+    flatness = mean((residual - true_residual).clamp_min(0))
     apart = psi - truth.psi
     losses = {
         "local": options.metric_weight * metric

@@ -21,7 +21,7 @@ from hdpea.training.workers import Workers
 
 
 class Training:
-    """A network in training: every step is a function of the state before it and of nothing else."""
+    """A network in training: every step is a function of the state before it only."""
 
     best: float | None = None
     """The best score of a validation so far."""
@@ -48,7 +48,7 @@ class Training:
         self.neighbors = max(network.neighbors, options.loss.distance_neighbors, FIT_NEIGHBORS)
 
     def resume(self, checkpoint: Checkpoint) -> None:
-        """Go on from a checkpoint of the same options; the number of steps may be another.
+        """Resume from a checkpoint of the same options; only the number of steps may differ.
 
         Raises
         ------
@@ -72,7 +72,7 @@ class Training:
         self.step, self.best = checkpoint.step, checkpoint.best
 
     def checkpoint(self) -> Checkpoint:
-        """Return the state, for writing at once: it is not copied."""
+        """Return the state, to be written at once, since it is not copied."""
         weights, optimizer = self.network.state_dict(), self.optimizer.state_dict()
         return Checkpoint(
             self.network.options, self.options, self.metric, self.step, weights, self.averaged, optimizer, self.best
@@ -86,7 +86,7 @@ class Training:
         return Crop.together(cut)
 
     def run_step(self, crop: Crop) -> dict[str, float]:
-        """Learn from one batch; return the parts of its loss."""
+        """Train on one batch; return the terms of its loss."""
         options = self.options
         torch.manual_seed(options.seed * 1_000_003 + self.step)  # for the curves' order
         share = learning_share(self.step, self.steps, options.warm_up)
@@ -99,7 +99,7 @@ class Training:
         self.optimizer.zero_grad()
         torch.autograd.backward(parts["loss"])
         norm = nn.utils.clip_grad_norm_(self.network.parameters(), options.clip or math.inf)
-        # One bad crop must not spoil hours.
+        # One bad crop must not spoil hours of training.
         if torch.isfinite(norm):
             self.optimizer.step()
         self.step += 1
@@ -107,7 +107,7 @@ class Training:
         return {name: value.item() for name, value in parts.items()} | {"gradient": norm.item()}
 
     def _average(self) -> None:
-        # Shorter at first, when the weights of the start are best forgotten.
+        # A shorter average at first, so that the initial weights are soon forgotten.
         share = min(self.options.average, (1 + self.step) / (10 + self.step))
         for name, value in self.network.state_dict().items():
             self.averaged[name].lerp_(value, 1 - share)
@@ -118,14 +118,14 @@ class Training:
 
 
 def learning_share(step: int, steps: int, warm_up: int) -> float:
-    """Return the share of the full learning rate: rising, then falling as a cosine to 0."""
+    """Return the share of the full learning rate: linear warm-up, then a cosine down to 0."""
     if step < warm_up:
         return (step + 1) / warm_up
     return (1 + math.cos(math.pi * (step - warm_up) / max(steps - warm_up, 1))) / 2
 
 
 def _groups(network: PointTransformer, options: TrainingOptions) -> list[dict[str, object]]:
-    """Return the parameters of attention modules and the others, each with its learning rate."""
+    """Return the parameter groups of the attention modules and of the rest, each with its learning rate."""
     attention = {
         id(parameter)
         for module in network.modules()

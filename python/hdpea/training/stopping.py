@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Ctrl-C in a training: the step at hand is finished and saved first, so that nothing is lost."""
+"""Ctrl-C in a training: the current step is finished and saved first, so that nothing is lost."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from hdpea.errors import Interrupted
 
 @contextmanager
 def stop_requests() -> Iterator[Callable[[], bool]]:
-    """Give a function that says whether Ctrl-C was pressed, or the process asked to end; the second time ends it."""
+    """Yield a function that tells whether Ctrl-C or SIGTERM has arrived; a second one ends the process at once."""
     asked = False
 
     def ask(_number: int, _frame: FrameType | None) -> None:
@@ -23,7 +23,7 @@ def stop_requests() -> Iterator[Callable[[], bool]]:
             os._exit(Interrupted.exit_code)
         asked = True
 
-    # The command's watchdog gives a run a second to end, which is not enough to save a training.
+    # The command line's watchdog ends a run after a second, which is too short to save a training.
     watchdog = signal.set_wakeup_fd(-1)
     before = {number: signal.signal(number, ask) for number in (signal.SIGINT, signal.SIGTERM)}
     try:

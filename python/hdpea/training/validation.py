@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a network is worth: meshes of clouds it has not seen, made from its embedding, and how good they are."""
+"""Validation of a network: reconstruct clouds it was not trained on from its embedding, and score the meshes."""
 
 from __future__ import annotations
 
@@ -23,25 +23,25 @@ from hdpea.options import Options, ParticleOptions
 from hdpea.surface.surface import Surface
 
 T3_WANTED, G_WANTED = 0.95, 0.77
-"""What a network is wanted to reach."""
+"""Targets, by which the two parts of the score are scaled."""
 
 
 def validate(
     network: PointTransformer, samples: Iterable[tuple[Sample, float]], vertices: int, rounds: int = ROUNDS
 ) -> dict[str, float]:
-    """Return the mean scores of the meshes of so many `vertices` that the network makes of samples and their spacing.
+    """Return the mean scores of meshes of so many `vertices`, reconstructed from samples, each with its spacing.
 
     Parameters
     ----------
     rounds
-        Of the solver after the network.
+        Rounds of the solver after the network.
 
     Returns
     -------
-    ``t3``: faces that three cells agree on, as a share of the faces, or of those that a closed mesh of so many
-    vertices has, if there are fewer; ``g``: quality under the true metric (1 is best);
-    ``boundary``: edges of one face; ``score``: what checkpoints are chosen by, the sum of t3 and g, of which each
-    counts only up to a little above what is wanted.
+    ``t3``: faces proposed by all three cells, as a share of the faces, or of the faces of a closed mesh of so many
+    vertices if that is more; ``g``: mean quality under the true metric (1 is best); ``boundary``: boundary edges;
+    ``score``, by which checkpoints are chosen: the sum of t3 and g relative to their targets, each capped a little
+    above its target.
     """
     rows = [_scores(network, sample, spacing, vertices, rounds) for sample, spacing in samples]
     means = {name: float(np.mean([row[name] for row in rows])) for name in rows[0]}
@@ -56,7 +56,7 @@ def _scores(network: PointTransformer, sample: Sample, spacing: float, vertices:
         return {"t3": 0.0, "g": 0.0, "boundary": float("nan")}
     check = _core.check_mesh(mesh.vertices_in_unit, mesh.faces)
     return {
-        # Small pieces are dropped after the count, and what was dropped is no success.
+        # Small pieces are dropped after t3 was counted, and must not count.
         "t3": min(mesh.statistics["t3_kept"], len(mesh.faces)) / max(len(mesh.faces), 2 * vertices - 4),
         "g": float(metric_quality(mesh, sample).mean()),
         "boundary": float(check.boundary_edges),
@@ -66,7 +66,7 @@ def _scores(network: PointTransformer, sample: Sample, spacing: float, vertices:
 def mesh_of_sample(
     network: PointTransformer, sample: Sample, spacing: float, vertices: int, rounds: int = ROUNDS
 ) -> Mesh:
-    """Return the mesh of so many `vertices` that the network and so many `rounds` of the solver make of a sample."""
+    """Reconstruct a sample with so many `vertices` by the network and so many `rounds` of the solver."""
     points, normals = np.asarray(sample.points, np.float64), np.asarray(sample.normals, np.float64)
     surface = Surface.of(UnitFrame(np.zeros(3), 1.0), points, normals / np.linalg.norm(normals, axis=1, keepdims=True))
     psi = predict_psi(network, points, surface.normals, surface.neighbors, spacing, rounds=rounds)
@@ -74,7 +74,7 @@ def mesh_of_sample(
 
 
 def mesh_of_embedding(surface: Surface, psi: NDArray[np.float64], vertices: int) -> Mesh:
-    """Return the mesh that all stages after the embedding make of a surface of n points and psi (n, 5)."""
+    """Return the mesh of a surface of n points embedded by psi (n, 5), with so many `vertices`."""
     points = len(surface.points_in_unit)
     particles = min(vertices, points)
     coordinates = np.hstack([surface.points_in_unit, psi])
@@ -83,7 +83,7 @@ def mesh_of_embedding(surface: Surface, psi: NDArray[np.float64], vertices: int)
 
 
 def metric_quality(mesh: Mesh, sample: Sample) -> NDArray[np.float64]:
-    """Return the quality G (f,) of each face under the metric of the true curvature; 1 if equilateral there."""
+    """Return the quality G (f,) of each face under the true curvature metric; 1 for a face equilateral under it."""
     points, normals, curvatures, direction1 = (
         np.asarray(each, np.float64)
         for each in (sample.surface_points, sample.normals, sample.curvatures, sample.direction1)

@@ -14,20 +14,20 @@ from torch import distributed, nn
 
 @dataclass(frozen=True)
 class Workers:
-    """One of `count` processes; each learns from its share of a batch, and all hold the same weights."""
+    """One of `count` processes, each of which trains on its share of a batch; all hold the same weights."""
 
     rank: int = 0
     count: int = 1
 
     @property
     def device(self) -> torch.device:
-        """The device that this process computes on."""
+        """The device on which this process computes."""
         if not torch.cuda.is_available():
             return torch.device("cpu")
         return torch.device("cuda", int(os.environ.get("LOCAL_RANK", "0")))
 
     def share(self, network: nn.Module) -> nn.Module:
-        """Return the network such that gradients are averaged over all processes."""
+        """Wrap the network so that gradients are averaged over all processes."""
         return nn.parallel.DistributedDataParallel(network) if self.count > 1 else network
 
     def mean(self, values: Mapping[str, float]) -> dict[str, float]:
@@ -41,7 +41,7 @@ class Workers:
 
 @contextmanager
 def joined_workers() -> Iterator[Workers]:
-    """Join the processes that ``torchrun`` started, if it did."""
+    """Join the processes started by ``torchrun``, if any."""
     count = int(os.environ.get("WORLD_SIZE", "1"))
     if count == 1:
         yield Workers()

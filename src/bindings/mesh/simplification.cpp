@@ -11,7 +11,8 @@ void register_simplification(nb::module_& module) {
       .def_rw("faces", &MeshBudget::faces);
   nb::class_<SimplifiedMesh>(module, "SimplifiedMesh", "A mesh whose edges were collapsed.")
       .def_ro("vertices", &SimplifiedMesh::vertices, "(v, 3) float64")
-      .def_ro("coordinates", &SimplifiedMesh::coordinates, "(v, d) float64: the centroids of what they stand for")
+      .def_ro("coordinates", &SimplifiedMesh::coordinates,
+              "(v, d) float64: the centroids of the parts that they represent")
       .def_ro("faces", &SimplifiedMesh::faces, "(f, 3) int64");
   // The options are for the core's own tests: nobody sets them from Python.
   module.def(

@@ -2,6 +2,7 @@
 // Checks of what a public function of the core is given: each takes one pass and throws InvalidArgument.
 #pragma once
 
+#include <cmath>
 #include <string>
 
 #include "hdpea_cpp/base/errors.hpp"
@@ -12,6 +13,13 @@ namespace hdpea {
 template <class Matrix>
 void require_finite(const Matrix& matrix, const std::string& name) {
   require(matrix.size() == 0 || matrix.allFinite(), name + " must be finite");
+}
+
+/// Finite, and of a magnitude at which `power` factors of it can be multiplied.
+template <class Matrix>
+void require_magnitude(const Matrix& matrix, int power, const std::string& name) {
+  const double most = std::pow(1e300, 1.0 / power);
+  require(matrix.size() == 0 || (matrix.array().abs() <= most).all(), name + " must be finite and not as large");
 }
 
 template <class Matrix>

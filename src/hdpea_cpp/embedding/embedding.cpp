@@ -113,7 +113,7 @@ class Elements {
     const Eigen::Vector3d ab = points.row(triangles_(t, 1)).transpose() - a;
     const Eigen::Vector3d ac = points.row(triangles_(t, 2)).transpose() - a;
     const double twice_area = ab.cross(ac).norm();
-    // A sliver has no frame to speak of and (nearly) no area: it says nothing.
+    // A sliver has no stable frame and (nearly) no area: it contributes nothing.
     if (twice_area <= 1e-10 * (ab.squaredNorm() + ac.squaredNorm())) {
       return {Eigen::Matrix<double, 2, 3>::Zero(), Eigen::Matrix2d::Zero(), 0};
     }
@@ -151,7 +151,7 @@ class Elements {
   std::vector<Corners> contributions_;
 };
 
-/// The normal parts the two sides of a wall; a little of the last two dimensions lets psi unfold into them.
+/// The normal separates the two sides of a wall; a little of the last two dimensions lets psi unfold into them.
 Psi initial_psi(const PointsRef& normals) {
   Psi psi(normals.rows(), 5);
   psi.leftCols<3>() = 0.2 * normals;

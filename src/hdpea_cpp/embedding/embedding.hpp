@@ -29,7 +29,7 @@ struct EmbeddingOptions {
 /// of the product.
 ///
 /// @param points     (n, 3)
-/// @param normals    (n, 3) unit, consistently oriented; psi starts at 0.2 n, which parts the two sides of a wall
+/// @param normals    (n, 3) unit, consistently oriented; psi starts at 0.2 n, which separates the two sides of a wall
 /// @param curvature  as from estimate_curvature() (n)
 /// @param triangles  (t, 3) a mesh, or a soup that covers the surface
 /// @param weights    (t) 1 for a mesh; for a soup the share of each triangle, so that areas are counted once

@@ -94,10 +94,10 @@ class HoleFiller {
     // No patch is smaller than the loop's vector area, so large borders need not be triangulated at all.
     if (4 * vector_area(loop) > max_size * perimeter) return false;
     const std::vector<PatchFace> patch = triangulated(loop);
-    const bool not_searched = patch.empty() && loop.size() > kEdgesForAllPatches;
-    const bool too_large = 4 * area(loop, patch) > max_size * perimeter || folds_back(loop, patch);
-    if (std::isfinite(max_size) && (not_searched || too_large)) return false;
-    if (!fits(loop, patch)) {
+    const bool fan = !fits(loop, patch), not_searched = patch.empty() && loop.size() > kEdgesForAllPatches;
+    const bool too_large = 4 * (fan ? fan_area(loop) : area(loop, patch)) > max_size * perimeter;
+    if (std::isfinite(max_size) && (not_searched || too_large || folds_back(loop, patch))) return false;
+    if (fan) {
       add_fan(loop);
     } else {
       for (const PatchFace& face : patch) add(loop[face.corner[0]], loop[face.corner[1]], loop[face.corner[2]]);
@@ -207,11 +207,24 @@ class HoleFiller {
     return true;
   }
 
-  void add_fan(const Loop& loop) {
+  Eigen::RowVector3d centre_of(const Loop& loop) const {
     Eigen::RowVector3d centre = Eigen::RowVector3d::Zero();
     for (Index v : loop) centre += vertices_.row(v) / static_cast<double>(loop.size());
+    return centre;
+  }
+
+  double fan_area(const Loop& loop) const {
+    const Eigen::RowVector3d centre = centre_of(loop);
+    double twice = 0;
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+      twice += hdpea::area_vector(centre, vertices_.row(loop[i]), vertices_.row(loop[(i + 1) % loop.size()])).norm();
+    }
+    return twice / 2;
+  }
+
+  void add_fan(const Loop& loop) {
     const Index middle = vertices_.rows() + static_cast<Index>(centres_.size());
-    centres_.push_back(centre);
+    centres_.push_back(centre_of(loop));
     for (std::size_t i = 0; i < loop.size(); ++i) add(loop[i], loop[(i + 1) % loop.size()], middle);
   }
 

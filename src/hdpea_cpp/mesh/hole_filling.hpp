@@ -13,7 +13,7 @@ struct FilledMesh {
 
 /// Fills the holes of a mesh up to a size; the others, and so the borders of an open scan, stay open.
 ///
-/// The size of a hole is 4 area / perimeter of its patch: the diameter of a round hole, twice the width of a
+/// The size of a hole is 4 area / perimeter of what closes it: the diameter of a round hole, twice the width of a
 /// long slit. A patch that folds back over the mesh would close an outer border, not a hole: it is left out
 /// unless everything is to be filled.
 ///

@@ -191,7 +191,7 @@ void Extractor::insert_candidates(const Candidates& candidates) {
   counts_.t3 = static_cast<Index>(t3.size());
   counts_.t12 = static_cast<Index>(t12.size());
   for (const Candidate& candidate : t3) counts_.t3_kept += try_insert(candidate);
-  // Bridges come last: on thin parts they join what would be crumbs, elsewhere the surface is whole by then.
+  // Bridges come last: on thin parts they join what would stay fragments; elsewhere the surface is complete by then.
   std::vector<Candidate> loose = sweep_t12(std::move(t12), false);
   loose = sweep_t12(std::move(loose), true);
   counts_.refused_loose = static_cast<Index>(loose.size());

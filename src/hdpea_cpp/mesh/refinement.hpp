@@ -17,7 +17,7 @@ struct RefinementOptions {
 
 /// Moves the vertices so that the faces run through the cloud, by least squares.
 ///
-/// Vertices on tangent planes chop corners off. Each round asks of every point p with normal n, projected to
+/// Vertices on tangent planes cut off corners. Each round asks of every point p with normal n, projected to
 /// the face with corners x_b and weights w_b, that n . (sum_b w_b x_b - p) = 0, and of every vertex that it
 /// stays (weakly), and solves the sparse normal equations once. Where a face would flip or be squashed, or a
 /// vertex leave the cloud, steps are shortened.

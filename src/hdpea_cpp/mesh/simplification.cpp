@@ -25,12 +25,12 @@ namespace sms = CGAL::Surface_mesh_simplification;
 using Point = Kernel::Point_3;
 using Vertex = SurfaceMesh::Vertex_index;
 
-// Where planes leave a direction open, the middle of the edge is as good a place as any.
+// Where planes leave a direction open, the middle of the edge will do.
 constexpr double kPull = 1e-3;
 
 constexpr Index kCollapsesPerReport = 100;
 
-/// The part of the given surface that a vertex stands for.
+/// The part of the given surface that a vertex represents.
 struct Part {
   Eigen::Matrix4d quadric = Eigen::Matrix4d::Zero();  ///< of the planes of its faces, weighted by their area
   double area = 0;                                    ///< in R^d
@@ -171,6 +171,7 @@ SimplifiedMesh simplify_mesh(const PointsRef& vertices, const CoordinatesRef& co
                              const MeshBudget& budget, const SimplificationOptions& options, const Progress& progress) {
   require_rows(coordinates, vertices.rows(), "coordinates");
   require_finite(coordinates, "coordinates");
+  require(budget.vertices >= 0 && budget.faces >= 0, "a budget must be 0 or more");
   require(options.evenness >= 0 && options.border >= 0, "evenness and border must be 0 or more");
   const MeshCheck check = check_mesh(vertices, faces);
   require(check.manifold() && check.oriented(), "simplification needs a manifold, oriented mesh");

@@ -21,13 +21,13 @@ struct SimplificationOptions {
 
 struct SimplifiedMesh {
   Points vertices;          ///< (v, 3)
-  Coordinates coordinates;  ///< (v, d) the centroids of the parts that they stand for
+  Coordinates coordinates;  ///< (v, d) the centroids of the parts that they represent
   Faces faces;              ///< (f, 3)
 };
 
-/// Collapses edges until a mesh is small enough, the least loss first.
+/// Collapses edges until a mesh is small enough, the cheapest first.
 ///
-/// A vertex stands for the part of the given surface that has been collapsed into it. A collapse costs the squared
+/// A vertex represents the part of the given surface that has been collapsed into it. A collapse costs the squared
 /// distance of the new vertex from the planes of its part (area-weighted quadrics; Garland and Heckbert 1997), which
 /// keeps creases, and, weighted, what the variance of the part under the metric of R^d grows by (Ward 1963): that is
 /// the energy that evenly spread particles have least of, and keeps triangles aligned with curvature. The topology

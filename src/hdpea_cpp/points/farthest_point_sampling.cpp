@@ -114,7 +114,8 @@ class FarthestTree {
 Eigen::Vector<Index, Eigen::Dynamic> farthest_point_sampling(const CoordinatesRef& points, Index count, Index first,
                                                              const Progress& progress) {
   require(count >= 1 && count <= points.rows(), "the number of samples must lie between 1 and the number of points");
-  require_finite(points, "points");
+  require(points.cols() >= 1, "the points have no coordinates");
+  require_magnitude(points, 2, "points");
   require(first >= 0 && first < points.rows(), "the first sample must be one of the points");
   FarthestTree tree(points);
   Eigen::Vector<Index, Eigen::Dynamic> samples(count);

@@ -73,7 +73,7 @@ std::optional<Jet> fit_patch(const Patch& patch, std::size_t count) {
   return Jet{form, error_of(form, patch, count), count - 1};
 }
 
-/// The first jet that is sure enough, else the surest.
+/// The first jet that is certain enough, else the most certain.
 std::optional<Jet> fit_growing(const Patch& patch, const JetOptions& options) {
   std::optional<Jet> best;
   if (patch.size() < kCoefficients) return best;

@@ -9,8 +9,8 @@ namespace hdpea {
 /// How many neighbours a jet is fitted to: of all that are given, as few as will do.
 struct JetOptions {
   Index least_neighbors = 24;     ///< fitted first; three times as many next, and so on
-  double direction_error = 0.05;  ///< radians: directions this sure need no more neighbours
-  double curvature_error = 0;     ///< 1 / length: nor do curvatures this sure, as on a clean plane
+  double direction_error = 0.05;  ///< radians: directions as certain as this need no more neighbours
+  double curvature_error = 0;     ///< 1 / length: nor do curvatures as certain as this, as on a clean plane
 };
 
 /// Second-order shape of the surface at each point of a cloud.

@@ -16,6 +16,10 @@ namespace {
 /// Share of the trace added to the diagonal, so that neighbours on a line still have a solution.
 constexpr double ridge = 1e-9;
 
+/// Share of the neighbours' range of heights by which the surface may pass above or below all of them: where it is
+/// convex, its point is the highest. On smooth and on noisy clouds it passes by less than a tenth.
+constexpr double overshoot = 0.25;
+
 using Quadric = Eigen::Matrix<double, 6, 1>;
 
 }  // namespace
@@ -59,8 +63,9 @@ SurfacePlaces moving_least_squares(const PointsRef& places, const PointsRef& nor
     matrix.diagonal().array() += ridge * matrix.trace();
     const Quadric quadric = matrix.ldlt().solve(right);
     if (!quadric.allFinite()) return;
-    // A quadric that the neighbours do not determine may pass anywhere; the surface lies between them.
-    moved.points.row(i) += radius * std::clamp(quadric[0], lowest, highest) * normal.transpose();
+    // A quadric that the neighbours do not determine may pass anywhere.
+    const double margin = overshoot * (highest - lowest);
+    moved.points.row(i) += radius * std::clamp(quadric[0], lowest - margin, highest + margin) * normal.transpose();
     moved.normals.row(i) = (normal - quadric[1] * u - quadric[2] * v).normalized().transpose();
   });
   return moved;

@@ -22,7 +22,7 @@ struct SurfacePlaces {
 /// Moving least squares (Alexa et al., Computing and Rendering Point Set Surfaces, 2003), with weights that
 /// fall with the difference of the normals too (Oztireli et al., Feature Preserving Point Set Surfaces, 2009).
 ///
-/// A place moves no higher than the highest of the points that it is fitted to, and no lower than the lowest.
+/// Along its normal, a place stays in the range of the points that it is fitted to, widened by a quarter at either end.
 ///
 /// @param places     (n, 3) one near each point: at first the points themselves, then the result of an earlier call
 /// @param normals    (n, 3) unit, consistently oriented, at the places

@@ -43,7 +43,7 @@ void approach_half(const WindingTree& tree, double width, Points& moments) {
 Points wnnc_normals(const PointsRef& points, const WnncOptions& options, const Progress& progress) {
   const Index n = points.rows();
   require(n >= 1, "wnnc_normals needs at least one point");
-  require_finite(points, "points");
+  require_magnitude(points, 4, "points");
   require(options.iterations >= 1 && options.first_width > 0 && options.spacings_wide > 0 &&
               std::isfinite(options.spacings_wide),
           "iterations and widths must be positive");
@@ -51,6 +51,7 @@ Points wnnc_normals(const PointsRef& points, const WnncOptions& options, const P
   if (n == 1) return normals;
   report(progress, 0);
   const double last = options.spacings_wide * median_spacing(points);
+  require(last > 0, "most of the points coincide");
   const double diagonal = (points.colwise().maxCoeff() - points.colwise().minCoeff()).norm();
   // A thick shell of noise is seen whole first.
   const double first = std::max(options.first_width * diagonal, 2 * last);

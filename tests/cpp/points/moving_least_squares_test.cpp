@@ -65,6 +65,16 @@ TEST(MovingLeastSquares, NeverMoveAPointBeyondItsNeighbors) {
   EXPECT_LE((moved.points - points).rowwise().norm().maxCoeff(), 2 * reach);
 }
 
+TEST(MovingLeastSquares, RaisePointsThatLieABitInsideASphere) {
+  // Every neighbour of such a point lies below its tangent plane: the surface is higher than all of them.
+  clouds::Cloud sphere = clouds::sphere(2000);
+  for (Index i = 0; i < sphere.points.rows(); i += 20) sphere.points.row(i) *= 1 - 1e-4;
+  const SurfacePlaces moved = denoised(sphere);
+  for (Index i = 0; i < sphere.points.rows(); i += 20) {
+    EXPECT_LT(std::abs(moved.points.row(i).norm() - 1), 5e-5);
+  }
+}
+
 TEST(MovingLeastSquares, RefuseRowsThatDoNotMatch) {
   const auto sphere = clouds::sphere(10);
   EXPECT_THROW(moving_least_squares(sphere.points, sphere.normals, sphere.points,

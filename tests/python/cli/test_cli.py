@@ -12,8 +12,8 @@ import numpy as np
 import pytest
 import trimesh
 from helpers import clouds, standins
+from helpers.clouds import sphere_points
 from helpers.files import WITH_NORMALS
-from helpers.shapes import sphere
 
 from hdpea.cli import run
 from hdpea.reading import read_points
@@ -220,13 +220,13 @@ def test_info_says_what_becomes_of_the_normals(sign: float, fate: str, tmp_path:
 
 
 def test_info_says_that_points_are_too_few(tmp_path: Path, capsys: Capture) -> None:
-    np.savetxt(tmp_path / "scan.xyz", sphere(15))
+    np.savetxt(tmp_path / "scan.xyz", sphere_points(15))
     assert run(["info", str(tmp_path / "scan.xyz")]) == 0
     assert "a run needs at least 16 points" in capsys.readouterr().out
 
 
 def test_info_as_json(tmp_path: Path, capsys: Capture) -> None:
-    np.save(tmp_path / "scan.npy", 1e7 + sphere(500))
+    np.save(tmp_path / "scan.npy", 1e7 + sphere_points(500))
     assert run(["info", str(tmp_path / "scan.npy"), "--json"]) == 0
     facts = json.loads(capsys.readouterr().out)
     assert facts["counts"]["points"] == 500

@@ -7,7 +7,7 @@ from itertools import pairwise
 import numpy as np
 import pytest
 from helpers import clouds
-from helpers.analytic import ELLIPSOID, TORUS, Analytic
+from helpers.analytic_meshes import ELLIPSOID, TORUS, Analytic
 from numpy.typing import NDArray
 
 from hdpea import CurvatureTensors, estimate_curvature

@@ -8,6 +8,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from helpers import meshes
+from helpers.samples import numbered_sample
 
 from hdpea.dataset.augmentation import TRANSFORMS, augmented, random_rotation
 from hdpea.dataset.sample import Sample
@@ -18,7 +19,7 @@ TURNED = ("points", "surface_points", "normals", "direction1", "estimated_normal
 
 
 def torus() -> Sample:
-    sample = meshes.sample(meshes.torus(), 500)
+    sample = numbered_sample(meshes.torus(), 500)
     return replace(sample, estimated_normals=sample.normals)
 
 
@@ -43,7 +44,7 @@ def test_lengths_and_angles_stay(name: str) -> None:
 
 @pytest.mark.parametrize("name", MATRICES)
 def test_normals_stay_outward(name: str) -> None:
-    other = augmented(meshes.sample(meshes.sphere(), 500), MATRICES[name])
+    other = augmented(numbered_sample(meshes.icosphere(), 500), MATRICES[name])
     assert ((other.points * other.normals).sum(axis=1) > 0).all()
 
 

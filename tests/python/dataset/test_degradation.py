@@ -9,13 +9,14 @@ from typing import Any
 import numpy as np
 import pytest
 from helpers import meshes
+from helpers.samples import numbered_sample
 
 from hdpea.dataset.degradation import STRIPES, degraded, with_normal_noise
 from hdpea.dataset.options import DegradationOptions
 from hdpea.dataset.sample import Sample
 from hdpea.errors import UsageError
 
-ORIGINAL = meshes.sample(meshes.box(), 5000)
+ORIGINAL = numbered_sample(meshes.box(), 5000)
 TRUTH = ("surface_points", "normals", "psi", "curvatures", "direction1")
 REMOVING: list[dict[str, Any]] = [{"clipped": True}, {"missing": 5}, {"density": "gradient"}, {"density": "striped"}]
 MOVING: list[dict[str, Any]] = [{"noise": 0.005}, {"outliers": 0.05}]

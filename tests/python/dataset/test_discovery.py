@@ -145,7 +145,7 @@ def test_no_network_is_told(thingi10k: Any) -> None:
         raise RuntimeError("Failed to initialize dataset: no route to host")
 
     thingi10k.init = init
-    with pytest.raises(UnreadableInput, match=r"cannot be had: .*no route"):
+    with pytest.raises(UnreadableInput, match=r"cannot be downloaded or read: .*no route"):
         find_meshes("thingi10k:7")
 
 

@@ -8,8 +8,8 @@ from functools import cache
 
 import numpy as np
 import pytest
-from helpers.analytic import SURFACES, TORUS, Analytic, Array, Mesh
-from helpers.shapes import TETRAHEDRON_FACES, tetrahedron
+from helpers.analytic_meshes import SURFACES, TORUS, Analytic, Array, Mesh
+from helpers.meshes import TETRAHEDRON_FACES, tetrahedron
 
 from hdpea import _core
 from hdpea.dataset.ground_truth import EmbeddedMesh, embed_mesh, vertex_normals

@@ -48,7 +48,7 @@ def test_faces_look_at_the_sensor_and_nothing_stands_between(sensor: str) -> Non
 
 
 def test_noise_is_along_the_rays_and_of_the_size_asked_for() -> None:
-    scan = scanned(meshes.sphere(), 20_000, noise=0.002)
+    scan = scanned(meshes.icosphere(), 20_000, noise=0.002)
     rays = scan.surface_points - scan.sensors
     rays /= np.linalg.norm(rays, axis=1, keepdims=True)
     moved = scan.points - scan.surface_points
@@ -79,7 +79,7 @@ def test_a_turntable_hides_the_underside_and_views_all_round_do_not() -> None:
 @pytest.mark.parametrize("sensor", SENSORS)
 def test_less_coverage_shows_less(sensor: str) -> None:
     def missing(coverage: float) -> float:
-        scan = scanned(meshes.sphere(), sensor=sensor, coverage=coverage)
+        scan = scanned(meshes.icosphere(), sensor=sensor, coverage=coverage)
         return float(np.linalg.norm(scan.normals.mean(axis=0)))  # 0 if all sides are seen alike
 
     assert missing(0.1) > 1.5 * missing(1.0)
@@ -87,7 +87,7 @@ def test_less_coverage_shows_less(sensor: str) -> None:
 
 def test_fewer_grazing_rays_return_the_smaller_the_angle() -> None:
     def grazing(limit: float) -> float:
-        scan = scanned(meshes.sphere(), views=1, grazing=limit)
+        scan = scanned(meshes.icosphere(), views=1, grazing=limit)
         rays = scan.surface_points - scan.sensors
         cosines = -(scan.normals * rays).sum(axis=1) / np.linalg.norm(rays, axis=1)
         return float((cosines < 0.3).mean())
@@ -110,13 +110,13 @@ def test_seed_decides(sensor: str) -> None:
 
 
 def test_a_mesh_that_is_inside_out_is_refused() -> None:
-    vertices, faces = meshes.sphere()
+    vertices, faces = meshes.icosphere()
     with pytest.raises(CannotReconstruct, match="sees too little"):
         scanned((vertices, faces[:, ::-1]))
 
 
 def test_a_speck_is_refused() -> None:
-    vertices, faces = meshes.sphere()
+    vertices, faces = meshes.icosphere()
     with pytest.raises(CannotReconstruct, match="sees too little"):
         scanned((1e-2 * vertices, faces), 40_000)
 
@@ -124,5 +124,5 @@ def test_a_speck_is_refused() -> None:
 def test_the_missing_library_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(raycasting, "find_spec", lambda _: None)
     with pytest.raises(UsageError, match="embreex") as told:
-        scanned(meshes.sphere())
+        scanned(meshes.icosphere())
     assert "hdpea[dataset]" in told.value.hint

@@ -8,14 +8,14 @@ from pathlib import Path
 import numpy as np
 import pytest
 from helpers import clouds
-from helpers.networks import TINY, neighbors_of, network_of
+from helpers.networks import TINY, network_of
 
 from hdpea import _core
 from hdpea.embedding.embedded import Embedded
 from hdpea.embedding.learned import embed_learned
 from hdpea.errors import UsageError
+from hdpea.geometry.interpolation import Interpolation
 from hdpea.geometry.unit_frame import UnitFrame
-from hdpea.network.averaging import carried_over
 from hdpea.network.weights import write_weights
 from hdpea.options import EmbeddingOptions, MeshingOptions, Options
 from hdpea.reconstruction import reconstruct
@@ -57,7 +57,7 @@ def test_psi_is_carried_along_its_gradient() -> None:
     points, normals = clouds.sphere(4000)
     psi = 3 * points[:, [0, 1, 2, 0, 1]]
     others, other_normals = clouds.sphere(500, seed=7)
-    carried = carried_over(points, normals, neighbors_of(points, normals), psi, others, other_normals)
+    carried = Interpolation.of(points, normals, others, other_normals)(psi)
     nearest = psi[_core.nearest_neighbors(points, others, 1)[:, 0]]
     errors, of_nearest = (np.linalg.norm(each - 3 * others[:, [0, 1, 2, 0, 1]], axis=1) for each in (carried, nearest))
     assert errors.mean() < 0.1 * of_nearest.mean()
@@ -67,7 +67,7 @@ def test_psi_is_not_carried_through_a_wall() -> None:
     points, normals = clouds.hollow_sphere(8000, 1.0)
     psi = np.pad(normals, ((0, 0), (0, 2)))
     others, other_normals = points[::7] * 1.001, normals[::7]
-    carried = carried_over(points, normals, neighbors_of(points, normals), psi, others, other_normals)
+    carried = Interpolation.of(points, normals, others, other_normals)(psi)
     assert np.linalg.norm(carried - psi[::7], axis=1).max() < 0.2
 
 

@@ -10,7 +10,7 @@ from functools import cache
 import numpy as np
 import pytest
 import trimesh
-from helpers.analytic import CYLINDER, ELLIPSOID
+from helpers.analytic_meshes import CYLINDER, ELLIPSOID
 from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 

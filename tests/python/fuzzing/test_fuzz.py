@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from helpers import shapes
+from helpers.clouds import sphere_points
 from helpers.fuzzing import clouds, files
 from helpers.fuzzing.mesh_checker import faults
 
@@ -27,7 +27,7 @@ def test_any_damaged_file_gives_a_clean_cloud_or_says_what_is_wrong(first: int) 
 
 
 def test_the_checker_sees_what_is_wrong() -> None:
-    points = shapes.sphere(800)
+    points = sphere_points(800)
     made = reconstruct(points, vertices=100)
     report = made.report.as_dict()
     assert faults(made.vertices, made.faces, points, report) == []

@@ -10,7 +10,8 @@ import numpy as np
 import pytest
 
 from hdpea.dataset.options import GroundTruthOptions
-from hdpea.geometry.metric import BENDING_LENGTH, CURVATURE_RADIUS, Metric, ScaledMetric
+from hdpea.geometry.metric import Metric, ScaledMetric
+from hdpea.options.embedding import BENDING_LENGTH, CURVATURE_RADIUS
 
 METRIC = ScaledMetric(scale=40.0, max_stretch=6.0, bending_length=0.6, curvature_radius=1.2)
 

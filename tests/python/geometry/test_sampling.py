@@ -38,7 +38,7 @@ def test_points_are_spread_by_area() -> None:
 
 def test_farthest_points_are_spread_more_evenly() -> None:
     def variation(method: str) -> float:
-        points = sampled(meshes.sphere(), method=method).points
+        points = sampled(meshes.icosphere(), method=method).points
         spacings = np.linalg.norm(points[_core.nearest_neighbors(points, 1)[:, 0]] - points, axis=1)
         return float(spacings.std() / spacings.mean())
 

@@ -15,10 +15,15 @@ Cloud = tuple[Array, Array]
 TAU = 2 * np.pi
 
 
+def sphere_points(count: int, seed: int = 0) -> Array:
+    """Return points (count, 3) of the unit sphere, which are their own normals."""
+    points = np.random.default_rng(seed).normal(size=(count, 3))
+    return points / np.linalg.norm(points, axis=1, keepdims=True)
+
+
 def sphere(count: int, seed: int = 0) -> Cloud:
     """Return a unit sphere."""
-    points = np.random.default_rng(seed).normal(size=(count, 3))
-    points /= np.linalg.norm(points, axis=1, keepdims=True)
+    points = sphere_points(count, seed)
     return points, points.copy()
 
 

@@ -44,14 +44,14 @@ def _solve(principal: NDArray[np.float64], direction1: NDArray[np.float64], **ot
     _core.solve_embedding(curvature=curvature, options=_core.EmbeddingOptions(), **others)
 
 
-def _remesh(vertices: NDArray[np.float64], faces: NDArray[np.int64]) -> None:
+def _remesh(vertices: NDArray[np.float64], faces: NDArray[np.int64]) -> _core.TriangleMesh:
     options = _core.RemeshingOptions()
     options.edge_length = 0.7
-    _core.remesh_isotropically(vertices, faces, options)
+    return _core.remesh_isotropically(vertices, faces, options)
 
 
-def _simplify(**arrays: Any) -> None:
-    _core.simplify_mesh(budget=_core.MeshBudget(), **arrays)
+def _simplify(**arrays: Any) -> _core.SimplifiedMesh:
+    return _core.simplify_mesh(budget=_core.MeshBudget(), **arrays)
 
 
 CALLS: dict[str, tuple[Callable[..., Any], Arguments]] = {
@@ -121,7 +121,7 @@ def broken(value: Any) -> Iterator[tuple[Any, bool]]:
     yield value[:, ::-1] if value.ndim == 2 else value[::-1], False  # not contiguous
     yield np.zeros((3, 3, 3)), True
     if value.dtype.kind == "f":
-        for bad in (np.nan, np.inf):
+        for bad in (np.nan, np.inf, -np.inf):
             spoilt = value.copy()
             spoilt.flat[-1] = bad
             yield spoilt, True

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import numpy as np
 import trimesh
-from helpers.meshes import sample
+from helpers.samples import numbered_sample
 
 from hdpea.dataset import build
 from hdpea.dataset.sample_file import encoded
@@ -29,7 +29,7 @@ def make_samples(task: build.Task) -> list[build.EncodedSample]:
         raise ZeroDivisionError("a bug")
     if "slow" in name:
         time.sleep(0.3)
-    made = sample(read_surface(task.source.path), points=task.options.sampling.points, seed=task.seed)
+    made = numbered_sample(read_surface(task.source.path), points=task.options.sampling.points, seed=task.seed)
     return [build.EncodedSample(None, len(made.points), encoded(made))]
 
 

@@ -6,12 +6,12 @@ from __future__ import annotations
 import io
 
 import numpy as np
-from helpers.shapes import sphere
+from helpers.clouds import sphere_points
 from numpy.typing import NDArray
 from plyfile import PlyData, PlyElement
 
-POINTS = 3 * sphere(20)
-NORMALS = sphere(20)
+POINTS = 3 * sphere_points(20)
+NORMALS = sphere_points(20)
 FACES = "f 1 2 3\n"
 
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Small closed meshes in their unit frame, and samples of them, for the tests of the dataset."""
+"""Small closed meshes: a tetrahedron, and others in their unit frame."""
 
 from __future__ import annotations
 
@@ -7,8 +7,6 @@ import numpy as np
 import trimesh
 from numpy.typing import NDArray
 
-from hdpea.dataset.sample import Sample
-from hdpea.geometry.sampling import sample_surface
 from hdpea.geometry.unit_frame import UnitFrame
 
 Mesh = tuple[NDArray[np.float64], NDArray[np.int64]]
@@ -18,7 +16,15 @@ TORUS_DIAGONAL = (2 * 2.8**2 + 0.8**2) ** 0.5
 """Of the box around the torus before it was moved into its unit frame, when its radii were 1 and 0.4."""
 
 
-def sphere() -> Mesh:
+TETRAHEDRON_FACES = np.array([[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
+
+
+def tetrahedron(center: float = 0.0, size: float = 1.0) -> NDArray[np.float64]:
+    """Return the four corners (4, 3) of a right-angled tetrahedron, to go with ``TETRAHEDRON_FACES``."""
+    return center + size * np.array([[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]])
+
+
+def icosphere() -> Mesh:
     return _in_unit_frame(trimesh.creation.icosphere(subdivisions=3))
 
 
@@ -35,25 +41,6 @@ def nested_spheres() -> Mesh:
     outer, inner = trimesh.creation.icosphere(subdivisions=3), trimesh.creation.icosphere(subdivisions=3, radius=0.8)
     inner.invert()
     return _in_unit_frame(trimesh.util.concatenate([outer, inner]))
-
-
-def sample(mesh: Mesh, points: int = 2000, seed: int = 0) -> Sample:
-    """Return a sample whose psi and curvatures are told apart row by row."""
-    vertices, faces = mesh
-    drawn = sample_surface(vertices, faces, points, seed=seed)
-    on_surface, normals = drawn.points.astype(np.float32), drawn.normals.astype(np.float32)
-    along = np.cross(normals, np.roll(normals, 1, axis=1) + np.float32([0.1, 0.2, 0.3]))
-    numbered = np.arange(points, dtype=np.float32)[:, None]
-    return Sample(
-        points=on_surface,
-        surface_points=on_surface,
-        normals=normals,
-        psi=numbered + np.arange(5, dtype=np.float32),
-        curvatures=numbered + np.arange(2, dtype=np.float32),
-        direction1=along / np.linalg.norm(along, axis=1, keepdims=True),
-        frame=UnitFrame(np.array([1.0, 2.0, 3.0]), 10.0),
-        sensors=3 * normals,
-    )
 
 
 def _in_unit_frame(mesh: trimesh.Trimesh) -> Mesh:

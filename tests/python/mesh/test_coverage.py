@@ -8,7 +8,7 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 from helpers import clouds
-from helpers.made import mesh_of
+from helpers.reconstructions import mesh_of
 
 from hdpea import _core
 from hdpea.geometry.unit_frame import UnitFrame

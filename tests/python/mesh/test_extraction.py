@@ -6,7 +6,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from helpers import clouds
-from helpers.made import VERTICES, area_vectors, edges, euler_characteristic, mesh_of, options, volume
+from helpers.reconstructions import VERTICES, area_vectors, edges, euler_characteristic, mesh_of, options, volume
 
 from hdpea import reconstruct
 from hdpea.options import MeshingOptions, Options

@@ -6,7 +6,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from helpers import clouds
-from helpers.made import cloud_of, mesh_of, options
+from helpers.reconstructions import cloud_of, mesh_of, options
 
 from hdpea import reconstruct
 from hdpea.errors import Interrupted

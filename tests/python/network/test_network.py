@@ -12,9 +12,11 @@ from helpers import clouds
 from helpers.networks import SPACING, TINY, cloud_of, neighbors_of, network_of, predicted, unit_torus
 
 from hdpea.errors import UsageError
-from hdpea.network.clouds import Clouds, shape_operators
+from hdpea.network.clouds import Clouds, moved_together, shape_operators
+from hdpea.network.inference import predict_psi
 from hdpea.network.options import CONFIGURATIONS, NetworkOptions
 from hdpea.network.transformer import PointTransformer
+from hdpea.network.voxels import CELLS, Voxels
 
 PLAIN = replace(TINY, stem=False, smoothing=0, normal_share=0.0)
 
@@ -120,3 +122,42 @@ def test_networks_that_do_not_fit_together_are_refused(wrong: dict[str, tuple[in
 
 def test_the_defaults_are_the_compact_configuration() -> None:
     assert NetworkOptions() == CONFIGURATIONS["compact"]
+
+
+def test_a_cloud_of_ordinary_size_is_not_moved() -> None:
+    points = np.random.default_rng(0).normal(size=(100, 3)) * 1000
+    assert moved_together(points) is points
+
+
+@pytest.mark.parametrize("distance", [1e5, 1e9, 1e15])
+def test_clusters_far_apart_keep_their_shape_and_do_not_meet(distance: float) -> None:
+    random = np.random.default_rng(0)
+    cluster = random.integers(0, 4, 400)
+    centres = distance * random.normal(size=(4, 3))
+    # Shapes that survive the rounding of such large coordinates.
+    offsets = random.integers(0, 8, (400, 3)) / 2 if distance < 1e12 else np.zeros((400, 3))
+    moved = moved_together(np.rint(centres)[cluster] + offsets)
+    assert abs(moved).max() < 8192
+    for each in range(4):
+        within = moved[cluster == each] - offsets[cluster == each]
+        np.testing.assert_allclose(within, np.broadcast_to(within[0], within.shape), atol=1e-6)
+    apart = np.linalg.norm(moved[:, None] - moved[None], axis=2)[cluster[:, None] != cluster[None]]
+    assert apart.min() > 60
+
+
+@pytest.mark.parametrize("scale", [1e6, 1e12, 1e30])
+def test_psi_is_finite_however_far_apart_points_are(network: PointTransformer, scale: float) -> None:
+    random = np.random.default_rng(0)
+    points = random.normal(size=(300, 3)) * scale ** random.random((300, 1))
+    normals = random.normal(size=(300, 3))
+    normals /= np.linalg.norm(normals, axis=1, keepdims=True)
+    psi = predict_psi(network, points, normals, neighbors_of(points, normals), 1.0, rounds=0)
+    assert np.isfinite(psi).all()
+
+
+def test_voxels_beyond_the_last_cell_wrap_around() -> None:
+    cells = torch.tensor([[CELLS + 1, 5, -1], [1, 5, CELLS - 1], [0, 0, 0]])
+    voxels, index = Voxels.holding(cells, torch.zeros(3, dtype=torch.int64))
+    assert index.tolist() == [1, 1, 0]
+    assert voxels.batch.tolist() == [0, 0]
+    assert len(voxels.neighborhood[0]) == 2

@@ -69,3 +69,19 @@ def test_values_have_a_maximum_too(share: float) -> None:
 def test_vertices_and_faces_exclude_each_other() -> None:
     with pytest.raises(UsageError, match="exclude"):
         MeshingOptions(vertices=100, faces=200)
+
+
+@pytest.mark.parametrize(
+    ("wrong", "said"),
+    [
+        ({"vertices": 99_999_999_999_999_999_999}, "at most"),
+        ({"vertices": "many"}, "whole number"),
+        ({"vertices": 20.5}, "whole number"),
+        ({"rounds": 10**9}, "at most"),
+        ({"metric_scale": "large"}, "is a number"),
+        ({"metric_scale": float("nan")}, "is a number"),
+    ],
+)
+def test_numbers_that_are_none_or_absurd_are_refused(wrong: dict[str, object], said: str) -> None:
+    with pytest.raises(UsageError, match=said):
+        options_from(wrong)

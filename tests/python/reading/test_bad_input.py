@@ -7,8 +7,8 @@ from contextlib import suppress
 from pathlib import Path
 
 import pytest
+from helpers.clouds import sphere_points
 from helpers.files import WITH_NORMALS, ply, saved
-from helpers.shapes import sphere
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -35,8 +35,8 @@ BAD_CONTENT = {
     "short.obj": (b"v 1 2\n", "2 numbers|x, y and z"),
     "cut.npy": (WITH_NORMALS["wide.npy"][:-8], "too short"),
     "cut.npz": (WITH_NORMALS["named.npz"][:-30], "damaged"),
-    "names.npz": (saved(cloud=sphere(4)), "no array named points"),
-    "shape.npz": (saved(points=sphere(1000).T), "not numbers of shape"),
+    "names.npz": (saved(cloud=sphere_points(4)), "no array named points"),
+    "shape.npz": (saved(points=sphere_points(1000).T), "not numbers of shape"),
     "scan.las": (b"LASF" + bytes(100), "LAS"),
     "photo.png": (b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR", "format is unknown"),
 }

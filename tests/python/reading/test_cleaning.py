@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from helpers.shapes import sphere
+from helpers.clouds import sphere_points
 from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as st_numpy
@@ -16,7 +16,7 @@ from hdpea.reading.cloud import PointCloud, cleaned, first_occurrences, unit_or_
 
 
 def test_points_that_are_not_finite_are_dropped_and_counted() -> None:
-    points = sphere(5)
+    points = sphere_points(5)
     points[1, 0] = np.nan
     points[3, 2] = np.inf
     cloud = cleaned(PointCloud(points, attributes={"index": np.arange(5)}))
@@ -25,7 +25,7 @@ def test_points_that_are_not_finite_are_dropped_and_counted() -> None:
 
 
 def test_the_first_of_equal_points_stays() -> None:
-    points = sphere(4)[[0, 1, 0, 2, 1, 0]]
+    points = sphere_points(4)[[0, 1, 0, 2, 1, 0]]
     cloud = cleaned(PointCloud(points, attributes={"index": np.arange(6)}))
     assert cloud.attributes["index"].tolist() == [0, 1, 3]
     assert cloud.dropped_duplicates == 3
@@ -48,9 +48,9 @@ def test_millimetres_at_ten_million_metres_are_not_duplicates() -> None:
 
 
 def test_unusable_normals_are_zero_and_counted() -> None:
-    normals = 2 * sphere(4)
+    normals = 2 * sphere_points(4)
     normals[0], normals[1] = 0, np.nan
-    cloud = cleaned(PointCloud(sphere(4), normals))
+    cloud = cleaned(PointCloud(sphere_points(4), normals))
     assert cloud.normals is not None
     assert cloud.normals.any(axis=1).tolist() == [False, False, True, True]
     np.testing.assert_allclose(np.linalg.norm(cloud.normals[2:], axis=1), 1)
@@ -59,7 +59,7 @@ def test_unusable_normals_are_zero_and_counted() -> None:
 
 @pytest.mark.parametrize("normal", [0.0, np.nan, np.inf])
 def test_a_cloud_without_one_usable_normal_has_none(normal: float) -> None:
-    cloud = cleaned(PointCloud(sphere(4), np.full((4, 3), normal)))
+    cloud = cleaned(PointCloud(sphere_points(4), np.full((4, 3), normal)))
     assert cloud.normals is None
     assert cloud.unusable_normals == 4
 

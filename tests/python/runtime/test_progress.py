@@ -4,8 +4,11 @@ from __future__ import annotations
 import re
 from contextlib import suppress
 
+import numpy as np
 import pytest
+from helpers import clouds
 
+from hdpea import reconstruct
 from hdpea.errors import Interrupted
 from hdpea.runtime.progress import of_phase, shown, tell
 
@@ -59,3 +62,15 @@ def test_the_core_gets_a_callback_of_the_fraction_alone() -> None:
     assert [callback(0.25), callback(0.75)] == [True, False]
     assert seen == [("meshing", 0.25), ("meshing", 0.75)]
     assert of_phase(None, "meshing")(0.5)
+
+
+@pytest.mark.parametrize("answer", [True, 1, None, np.bool_(True), "yes"])
+def test_any_answer_but_a_false_one_goes_on(answer: object) -> None:
+    tell(lambda *_: answer, "meshing", 0.5)
+    assert reconstruct(clouds.sphere(200)[0], progress=lambda *_: answer, vertices=30).report.mesh.closed
+
+
+@pytest.mark.parametrize("answer", [False, 0, np.bool_(False)])
+def test_a_false_answer_interrupts(answer: object) -> None:
+    with pytest.raises(Interrupted):
+        reconstruct(clouds.sphere(200)[0], progress=lambda *_: answer, vertices=30)

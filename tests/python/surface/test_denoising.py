@@ -55,6 +55,12 @@ def test_clean_points_stay_as_they_are(cloud: Callable[[int], clouds.Cloud]) -> 
     assert (choice.name, choice.value) == ("denoise", "none")
 
 
+def test_more_neighbours_than_points_are_all_points() -> None:
+    given = oriented(noisy(clouds.sphere(100), 0.03))
+    every, more = (denoised(given, DenoisingOptions("mls", count))[0].points_in_unit for count in (100, 2**31 - 1))
+    np.testing.assert_array_equal(every, more)
+
+
 def test_noisy_points_are_denoised_unless_they_are_not_to_be() -> None:
     given = oriented(noisy(clouds.sphere(POINTS), 0.03))
     made, (choice, count) = denoised(given, DenoisingOptions())

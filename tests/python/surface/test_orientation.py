@@ -112,6 +112,20 @@ def test_what_a_viewpoint_needs_is_said() -> None:
         NormalOptions(viewpoint=Position(0, 0, 0))
 
 
+def test_sensors_at_absurd_distances_are_unreadable_where_they_matter() -> None:
+    points, truth = clouds.sphere(500)
+    far = 1e300 * truth
+    with pytest.raises(UnreadableInput, match="too far from the points"):
+        oriented(1e-20 * points, truth, far, orient="viewpoint")
+    np.testing.assert_array_equal(oriented(1e-20 * points, truth, far), truth)
+
+
+def test_more_neighbours_than_points_are_all_points() -> None:
+    points, _ = clouds.sphere(100)
+    every, more = (oriented(points, normal_neighbors=count) for count in (100, 2**31 - 1))
+    np.testing.assert_array_equal(every, more)
+
+
 def test_what_was_chosen_is_told() -> None:
     points, truth = clouds.torus(2000)
     assert chosen_way(oriented_surface(points, truth)) == ["file"]

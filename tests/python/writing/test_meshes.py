@@ -8,7 +8,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 import trimesh
-from helpers.shapes import TETRAHEDRON_FACES, sphere, tetrahedron
+from helpers.clouds import sphere_points
+from helpers.meshes import TETRAHEDRON_FACES, tetrahedron
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as st_numpy
@@ -72,11 +73,11 @@ def test_an_empty_mesh_is_a_legal_file(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("extension", [".npz", ".ply"])
 def test_embedded_points_come_back(extension: str, tmp_path: Path) -> None:
-    points, embedding = 1e7 + sphere(9), np.random.default_rng(1).normal(size=(9, 8))
-    write_points(tmp_path / f"points{extension}", points, sphere(9), embedding)
+    points, embedding = 1e7 + sphere_points(9), np.random.default_rng(1).normal(size=(9, 8))
+    write_points(tmp_path / f"points{extension}", points, sphere_points(9), embedding)
     cloud = read_points(tmp_path / f"points{extension}")
     np.testing.assert_array_equal(cloud.points, points)
-    np.testing.assert_allclose(cloud.normals, sphere(9), atol=1e-15)
+    np.testing.assert_allclose(cloud.normals, sphere_points(9), atol=1e-15)
     columns = cloud.attributes.get("coordinates", np.stack(list(cloud.attributes.values()), axis=-1))
     np.testing.assert_array_equal(columns, embedding)
 

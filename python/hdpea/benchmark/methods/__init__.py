@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Ways from points to a mesh of a given size: ours, and those of others.
+"""Methods that make a mesh of a given size from points: hdpea and others.
 
 A method is a function ``reconstruct(cloud, vertices, options) -> (vertices, faces)`` in a module of its own, or
-``surface(cloud, options) -> (vertices, faces)`` if what it makes is then reduced. It is listed in ``METHODS`` by name;
-its module is imported only in the process that runs it. Rivals need the extra ``benchmark``.
+``surface(cloud, options) -> (vertices, faces)`` if its surface is then reduced. It is listed in ``METHODS`` by name;
+its module is imported only in the process that runs it. Other methods need the extra ``benchmark``.
 """
 
 from __future__ import annotations
@@ -37,7 +37,7 @@ from hdpea.reading.triangle_mesh import TriangleMesh
 
 @dataclass(frozen=True)
 class Cloud:
-    """What every method is given: points (n, 3) in world units, unit normals (n, 3), and where they come from.
+    """The input of every method: points (n, 3) in world units and unit normals (n, 3).
 
     `model` and `given` are the names of the model and of the input in the suite.
     """
@@ -50,7 +50,7 @@ class Cloud:
 
 @dataclass(frozen=True)
 class Method:
-    """A method: its module beside this one, the class of its options, and the libraries it cannot do without."""
+    """A method: its module in this package, the class of its options, and the libraries that it requires."""
 
     module: str
     options: type[Any]
@@ -58,7 +58,7 @@ class Method:
 
     @property
     def reduces(self) -> bool:
-        """Whether it makes a ``surface`` of many vertices, which is then reduced."""
+        """Whether it makes a ``surface`` that is then reduced to the wanted number of vertices."""
         return issubclass(self.options, ReducedOptions)
 
     def load(self, name: str) -> Callable[..., TriangleMesh]:
@@ -89,7 +89,7 @@ LIBRARIES_OF_REDUCTION = {
 
 
 def method_options(method: str, values: Mapping[str, Any]) -> Any:
-    """Return the options of a method, as a suite gives them by name.
+    """Return the options of a method from their values by name, as in a suite.
 
     Raises
     ------
@@ -117,7 +117,7 @@ def libraries(method: str, options: Any) -> tuple[str, ...]:
 
 
 def _understood(values: Mapping[str, Any]) -> dict[str, Any]:
-    """Return settings of a reconstruction as the command line understands their text: lengths and positions parsed."""
+    """Return settings of a reconstruction with lengths and positions parsed as on the command line."""
     kinds: dict[type, Callable[[str], Any]] = {Length: Length.parse, Position: Position.parse}
     parsers = {each.name: kinds[each.kind] for each in settings() if each.kind in kinds}
     try:

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The advancing front over all points, by CGAL."""
+"""Advancing front surface reconstruction of all points, by CGAL."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from hdpea.reading.triangle_mesh import TriangleMesh
 
 def surface(cloud: Cloud, options: AdvancingFrontOptions) -> TriangleMesh:
     """Return the surface whose vertices are the points."""
-    del options  # only how it is then reduced
+    del options  # which concern only the reduction
     points, corners = Point_set_3(), list[int]()
     for point in cloud.points.tolist():
         points.insert(Point_3(*point))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Ball pivoting over all points."""
+"""Ball pivoting on all points."""
 
 from __future__ import annotations
 
@@ -22,9 +22,9 @@ def surface(cloud: Cloud, options: BallPivotingOptions) -> TriangleMesh:
 
 
 def _radii(cloud: Cloud, radius: float) -> tuple[float, ...]:
-    """Return the radii, in percent of the diagonal, of the balls that pivot one after the other.
+    """Return the radii, in percent of the diagonal, of the balls that pivot one after another.
 
-    MeshLab's own guess leaves a third of the surface open on points that are random.
+    MeshLab's own guess leaves a third of the surface open on randomly sampled points.
     """
     if radius:
         return (radius,)

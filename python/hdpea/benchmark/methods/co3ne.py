@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Concurrent co-cones over all points."""
+"""Concurrent co-cones on all points."""
 
 from __future__ import annotations
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Any program that reads points from a file and writes a mesh to another."""
+"""Any program that reads points from one file and writes a mesh to another."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from hdpea.writing.meshes import point_ply
 
 
 def reconstruct(cloud: Cloud, vertices: int, options: CommandOptions) -> TriangleMesh:
-    """Run the program, without a shell, in the folder of the suite; return the mesh it wrote.
+    """Run the program, without a shell, in the folder of the suite; return the mesh that it wrote.
 
     Raises
     ------
@@ -29,7 +29,7 @@ def reconstruct(cloud: Cloud, vertices: int, options: CommandOptions) -> Triangl
         points.write_bytes(point_ply(cloud.points, cloud.normals, {}))
         words = options.words(str(points), str(mesh), vertices)
         try:
-            done = subprocess.run(  # noqa: S603 the suite says what to run
+            done = subprocess.run(  # noqa: S603 the program is named by the suite
                 words, cwd=options.folder or None, stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False
             )
         except OSError as error:

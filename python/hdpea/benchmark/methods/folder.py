@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Meshes that another program made of the suite's clouds, perhaps on another machine."""
+"""Meshes that another program made from the suite's clouds, perhaps on another machine."""
 
 from __future__ import annotations
 
@@ -16,5 +16,5 @@ def reconstruct(cloud: Cloud, vertices: int, options: FolderOptions) -> Triangle
 
 
 def made_elsewhere(options: FolderOptions, model: str, given: str, vertices: int) -> Path:
-    """Return where the mesh of a model, input and size should be."""
+    """Return the path where the mesh of a model, input and size is expected."""
     return Path(options.path.format(model=model, input=given, vertices=vertices))

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Co3Ne and anisotropic remeshing by Geogram, whose Python package holds its headers and its library, but not these.
+"""Co3Ne and anisotropic remeshing by Geogram, whose Python package does not expose these functions.
 
-What is missing (``geogram.cpp``) is compiled once, against the installed package, and kept in the user's cache.
+A small library (``geogram.cpp``) is compiled once against the installed package, and kept in the user's cache.
 """
 
 from __future__ import annotations
@@ -24,11 +24,11 @@ from hdpea.runtime.outputs import replacing
 
 SOURCE = Path(__file__).with_suffix(".cpp")
 ANISOTROPY = 0.04
-"""Of normals against points, as in the example of Geogram's documentation."""
+"""Weight of the normals relative to the points, as in the example of Geogram's documentation."""
 
 
 def co3ne(cloud: Cloud, radius: float) -> TriangleMesh:
-    """Return the triangles that Co3Ne (Boltcheva and Levy, 2017) connects points by, within a radius."""
+    """Return the triangles by which Co3Ne (Boltcheva and Levy, 2017) connects points within a radius."""
     points, normals = (np.ascontiguousarray(each) for each in (cloud.points, cloud.normals))
     _LIBRARY.hdpea_co3ne(_doubles(points), _doubles(normals), ctypes.c_int64(len(points)), ctypes.c_double(radius))
     return _last_mesh()
@@ -64,12 +64,12 @@ def _integers(array: NDArray[np.int64]) -> ctypes.Array[ctypes.c_int64]:
 
 
 def _compiled() -> Path:
-    """Return the compiled library, built now if it is not in the cache.
+    """Return the path of the compiled library, which is built if it is not in the cache.
 
     Raises
     ------
     UsageError
-        If there is no C++ compiler, or it cannot build it.
+        If there is no C++ compiler, or it fails.
     """
     package = distribution("geogram")
     key = sha256(SOURCE.read_bytes() + package.version.encode()).hexdigest()[:16]
@@ -94,6 +94,6 @@ def _compiled() -> Path:
     return built
 
 
-# With the module, so that no run counts the compiler's time as its own.
+# Loaded with the module, so that no run includes the time of the compiler.
 _LIBRARY = ctypes.CDLL(str(_compiled()))
 _LIBRARY.hdpea_vertex_count.restype = _LIBRARY.hdpea_face_count.restype = ctypes.c_int64

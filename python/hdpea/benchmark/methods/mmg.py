@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Anisotropic remeshing by mmgs (Dapogny et al., 2014), to the curvature metric of the surface it is given."""
+"""Anisotropic remeshing by mmgs (Dapogny et al., 2014), to the curvature metric of the given surface."""
 
 from __future__ import annotations
 
@@ -15,10 +15,10 @@ from hdpea.geometry.triangles import mesh_area
 from hdpea.reading.triangle_mesh import TriangleMesh, drop_unused
 
 GRADATION = 2.3
-"""Most that sizes grow by from edge to edge; mmg's own 1.3 puts small numbers of vertices out of reach."""
+"""Largest ratio of lengths of adjacent edges; with mmg's default of 1.3, small numbers of vertices are out of reach."""
 
 SHORTEST, LONGEST, ERROR = 1e-4, 2.0, 1.0
-"""Edges, in longest sides of the box, and an error so large that the metric alone counts."""
+"""Limits of edges, in longest sides of the box, and an error bound so large that only the metric counts."""
 
 
 def adapted(mesh: TriangleMesh, vertices: int) -> TriangleMesh:
@@ -40,10 +40,10 @@ def adapted(mesh: TriangleMesh, vertices: int) -> TriangleMesh:
         made, faces = drop_unused(
             np.asarray(remesher.get_vertices(), np.float64), np.asarray(remesher.get_triangles(), np.int64)
         )
-        missed = vertices / len(made)
-        if abs(missed - 1) <= TOLERANCE:
+        ratio = vertices / len(made)
+        if abs(ratio - 1) <= TOLERANCE:
             break
-        asked = max(round(asked * missed), 4)
+        asked = max(round(asked * ratio), 4)
     return made * longest + centre, faces
 
 
@@ -52,7 +52,7 @@ def _metric_at_vertices(surface: TriangleMesh) -> tuple[NDArray[np.float64], flo
     drawn = sample_surface(*surface, SAMPLES)
     metric = curvature_metric(drawn.points, drawn.normals, mesh_area(*surface))
     roots = metric.roots[_core.nearest_neighbors(metric.points, surface[0], 1)[:, 0]]
-    # The smaller tangential stretch is the normal's too: the two largest are those that areas grow by.
+    # The stretch along the normal equals the smaller tangential one, so the two largest scale the area.
     stretches = np.linalg.eigvalsh(metric.roots)[:, 1:].prod(axis=1)
     squares = np.einsum("nij,njk->nik", roots, roots)
     rows, columns = np.triu_indices(3)

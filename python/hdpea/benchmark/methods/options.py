@@ -12,15 +12,15 @@ from hdpea.options import Checked, option
 from hdpea.reading.triangle_mesh import SURFACE_FORMATS
 
 TOLERANCE = 0.01
-"""Share of the wanted vertices by which a mesh may miss them, as for hdpea itself."""
+"""Relative deviation from the wanted number of vertices that is accepted, as for hdpea itself."""
 
 ATTEMPTS = 4
-"""How often another number is asked for: methods count faces or clusters, and borders and handles change the ratio."""
+"""Attempts to meet the number: methods take faces or clusters, whose ratio to vertices depends on the mesh."""
 
 
 @dataclass(frozen=True)
 class ReducedOptions(Checked):
-    """How a mesh of too many vertices is brought to the wanted number."""
+    """How a mesh of too many vertices is reduced to the wanted number."""
 
     reduce: str = option(
         "fast",
@@ -35,11 +35,11 @@ class ReducedOptions(Checked):
 class PoissonOptions(ReducedOptions):
     """Screened Poisson reconstruction (Kazhdan and Hoppe, 2013), by MeshLab."""
 
-    depth: int = option(8, "of the octree", minimum=1, maximum=14)
+    depth: int = option(8, "depth of the octree", minimum=1, maximum=14)
     trim: float = option(
         0.0,
-        "levels of the octree below the median vertex's from which surface far from points is cut away, as is done "
-        "with open scans; 0: none is",
+        "levels of the octree below that of the median vertex from which on surface is cut away, as is usual for open "
+        "scans; 0: no trimming",
         minimum=0,
     )
 
@@ -55,7 +55,7 @@ class BallPivotingOptions(ReducedOptions):
 
     radius: float = option(
         0.0,
-        "of the ball, in percent of the diagonal; 0: the mean distance to the sixth neighbour, and then twice that",
+        "radius of the ball, in percent of the diagonal; 0: the mean distance to the sixth neighbour, then twice that",
         minimum=0,
     )
 
@@ -64,14 +64,14 @@ class BallPivotingOptions(ReducedOptions):
 class Co3neOptions(ReducedOptions):
     """Concurrent co-cones (Boltcheva and Levy, 2017), by Geogram."""
 
-    radius: float = option(5.0, "within which points are connected, in percent of the diagonal", minimum=0)
+    radius: float = option(5.0, "radius within which points are connected, in percent of the diagonal", minimum=0)
 
 
 @dataclass(frozen=True)
 class FolderOptions(Checked):
     """Meshes made elsewhere."""
 
-    path: str = option("", "of the meshes, with {model}, {input} and {vertices} in it, as ndc/{model}.obj")
+    path: str = option("", "path of the meshes, containing {model}, {input} and {vertices}, such as ndc/{model}.obj")
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -84,10 +84,11 @@ class CommandOptions(Checked):
     """Any program."""
 
     run: str = option(
-        "", "the program and its arguments, with {points} (a PLY file) and {mesh} in it; {vertices}, {python} may be"
+        "",
+        "program and arguments, containing {points} (a PLY file) and {mesh}, optionally {vertices} and {python}",
     )
-    format: str = option(".ply", "of the mesh it writes", choices=SURFACE_FORMATS)
-    folder: str = option("", "where it runs; from where the suite lies, and that folder itself by default")
+    format: str = option(".ply", "format of the mesh that it writes", choices=SURFACE_FORMATS)
+    folder: str = option("", "folder in which it runs, relative to that of the suite, which is the default")
 
     def __post_init__(self) -> None:
         super().__post_init__()
@@ -98,7 +99,7 @@ class CommandOptions(Checked):
         self.words("", "", 0)
 
     def words(self, points: str, mesh: str, vertices: int) -> list[str]:
-        """Return the program and its arguments for files and a number of vertices, split as a shell would."""
+        """Return the program and its arguments for files and a number of vertices, split like a shell does."""
         filled = {"points": points, "mesh": mesh, "vertices": vertices, "python": sys.executable}
         try:
             return [word.format(**filled) for word in shlex.split(self.run)]

@@ -12,7 +12,7 @@ from hdpea.reading.triangle_mesh import TriangleMesh
 
 
 def reconstruct(cloud: Cloud, vertices: int, options: Options) -> TriangleMesh:
-    """Reconstruct with the budget of the suite, and all else as the options say."""
+    """Reconstruct with the budget of the suite and otherwise the given options."""
     budgeted = replace(options, meshing=replace(options.meshing, vertices=vertices))
     made = reconstruct_points(cloud.points, cloud.normals, budgeted)
     return made.vertices, made.faces

@@ -12,7 +12,7 @@ from hdpea.reading.triangle_mesh import TriangleMesh, drop_unused
 
 
 def surface(cloud: Cloud, options: PoissonOptions) -> TriangleMesh:
-    """Return the surface, of as many vertices as the octree gives it; trimmed where few points are, if asked for."""
+    """Return the surface at the resolution of the octree; trimmed where points are sparse, if the options say so."""
     document = with_points(cloud)
     document.generate_surface_reconstruction_screened_poisson(depth=options.depth, preclean=True)
     vertices, faces = current_mesh(document)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Meshes of many vertices made smaller, by the libraries people use for it."""
+"""Reduction of meshes to fewer vertices, by common libraries."""
 
 from __future__ import annotations
 
@@ -11,25 +11,25 @@ from hdpea.benchmark.methods.options import ATTEMPTS, TOLERANCE
 from hdpea.reading.triangle_mesh import TriangleMesh, drop_unused
 
 CLUSTERED_FROM = 20
-"""Vertices for each cluster that pyacvd wants: a coarser mesh is subdivided first, as its makers advise."""
+"""Vertices per cluster for pyacvd: a coarser mesh is subdivided first, as its documentation advises."""
 
 
-def reduced(mesh: TriangleMesh, vertices: int, how: str) -> TriangleMesh:
-    """Return a mesh of about so many vertices; the same one if it has fewer, or is not to be reduced."""
+def reduced(mesh: TriangleMesh, vertices: int, method: str) -> TriangleMesh:
+    """Return a mesh of about so many vertices; the given one if it has fewer, or `method` is ``none``."""
     mesh = drop_unused(*mesh)
-    if how == "none" or len(mesh[0]) <= vertices:
+    if method == "none" or len(mesh[0]) <= vertices:
         return mesh
-    if how == "mmg":
+    if method == "mmg":
         from hdpea.benchmark.methods.mmg import adapted
 
         return drop_unused(*adapted(mesh, vertices))
     asked = vertices
     for _ in range(ATTEMPTS):
-        made = drop_unused(*_REDUCTIONS[how](mesh, asked))
-        missed = vertices / len(made[0])
-        if abs(missed - 1) <= TOLERANCE:
+        made = drop_unused(*_REDUCTIONS[method](mesh, asked))
+        ratio = vertices / len(made[0])
+        if abs(ratio - 1) <= TOLERANCE:
             break
-        asked = max(round(asked * missed), 4)
+        asked = max(round(asked * ratio), 4)
     return made
 
 
@@ -55,7 +55,7 @@ def _clustered(mesh: TriangleMesh, vertices: int) -> TriangleMesh:
     import pyvista
 
     with warnings.catch_warnings():
-        # It uses what pyvista will no longer have one day; that is between the two.
+        # It uses deprecated parts of pyvista.
         warnings.simplefilter("ignore")
         clusters = pyacvd.Clustering(pyvista.PolyData.from_regular_faces(mesh[0], mesh[1].astype(int)))
         if len(mesh[0]) < CLUSTERED_FROM * vertices:
@@ -72,7 +72,7 @@ def _remeshed(mesh: TriangleMesh, vertices: int) -> TriangleMesh:
 
 
 def _faces_of(vertices: int) -> int:
-    """Return how many faces a closed mesh of so many vertices has, without handles."""
+    """Return the number of faces of a closed mesh of genus 0 with so many vertices."""
     return 2 * vertices - 4
 
 

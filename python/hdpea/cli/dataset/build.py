@@ -35,7 +35,7 @@ Exit codes: 0 ok, 2 usage, 3 no meshes, 5 none usable or other bytes than --like
     "--like",
     cls=GroupedOption,
     type=PATH,
-    help="take every option from this manifest, and make sure that the same bytes come out",
+    help="take every option from this manifest, and check that the result has the same bytes",
 )
 @quiet_option
 @setting_options("sample", "sampling", "scanning", "ground_truth", "run", without=["method"], owner=DatasetOptions)

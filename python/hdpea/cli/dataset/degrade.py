@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""``hdpea dataset degrade``: a sample made worse, as scans are."""
+"""``hdpea dataset degrade``: a sample degraded to resemble scans."""
 
 from __future__ import annotations
 
@@ -19,15 +19,15 @@ Examples:
 """
 
 
-@click.command(cls=GroupedCommand, epilog=EPILOG, no_args_is_help=True, short_help="Make a sample worse.")
+@click.command(cls=GroupedCommand, epilog=EPILOG, no_args_is_help=True, short_help="Degrade a sample.")
 @click.argument("source", metavar="IN", type=PATH)
 @click.argument("output", metavar="OUT", type=PATH)
 @setting_options("run", owner=DegradationOptions, heading="Degradation")
 def command(source: Path, output: Path, **values: Any) -> None:
-    """Make the sample IN worse, as scans are, and write it as OUT; both are NPZ.
+    """Degrade the sample IN to resemble a scan, and write it as OUT; both are NPZ.
 
-    The truth stays that of the surface points that the points stand for; estimated normals, if IN
-    has them, are estimated anew. Lengths are shares of the diagonal of the mesh's bounding box.
+    The truth remains that of the surface points that the points represent; estimated normals, if IN
+    has them, are estimated again. Lengths are shares of the diagonal of the mesh's bounding box.
     """
     from hdpea.dataset.degradation import degraded
     from hdpea.dataset.normal_estimation import estimated_normals

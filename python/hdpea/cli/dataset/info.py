@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""``hdpea dataset info``: what is in a dataset, or in one sample."""
+"""``hdpea dataset info``: the content of a dataset, or of one sample."""
 
 from __future__ import annotations
 
@@ -21,16 +21,16 @@ Examples:
 """
 
 
-@click.command(cls=GroupedCommand, epilog=EPILOG, no_args_is_help=True, short_help="Say what is in a dataset.")
+@click.command(cls=GroupedCommand, epilog=EPILOG, no_args_is_help=True, short_help="Describe a dataset.")
 @click.argument("source", metavar="IN", type=PATH)
 def command(source: Path) -> None:
-    """Say what is in the dataset, or the sample, IN.
+    """Describe the dataset, or the sample, IN.
 
-    Of a dataset every file is read and checked. Curvatures are per unit length, lengths shares of
+    All files of a dataset are read and checked. Curvatures are per unit length, lengths shares of
     the diagonal of the mesh's bounding box. The isometry error is that of distances in R^8 between
-    neighbours, as a share of their length under the metric; the roughness, how far neighbours lie
-    off their plane there. For a single sample the metric is the default one, since its file does
-    not say under which it was made.
+    neighbours, as a share of their length under the metric; the roughness is the distance of neighbours
+    from their plane there. For a single sample the metric is the default one, since its file does
+    not contain the metric that it was made with.
     """
     if source.is_dir():
         from hdpea.dataset.loading import Dataset
@@ -75,7 +75,7 @@ def _describe_dataset(dataset: Dataset) -> str:
 
 
 def _ranges(facts: list[SampleStatistics]) -> list[str]:
-    """Return a table of the ranges; over several samples the least, the medians of the percentiles, and the most."""
+    """Return a table of the ranges; over several samples the minimum, medians of the percentiles, and maximum."""
     import numpy as np
 
     header = "".join(f"{name:>10}" for name in ("least", "5 %", "median", "95 %", "most"))

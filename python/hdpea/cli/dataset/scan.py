@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""``hdpea dataset scan``: what a sensor would see of one mesh."""
+"""``hdpea dataset scan``: a simulated scan of one mesh."""
 
 from __future__ import annotations
 
@@ -29,8 +29,8 @@ def command(mesh: Path, output: Path, quiet: bool, **values: Any) -> None:
     """Scan the closed mesh MESH by a simulated range sensor.
 
     OUT is PLY or NPZ. PLY holds the points in the coordinates of the mesh, with the normals of its
-    faces and, as sensor_x, sensor_y and sensor_z, where the sensor stood; reconstruct takes it. NPZ
-    is a sample, with the truth about the surface at every point, which takes longer.
+    faces and, as sensor_x, sensor_y and sensor_z, the position of the sensor; reconstruct takes it. NPZ
+    is a sample, with the ground truth at every point, which takes longer.
 
     Lengths are shares of the diagonal of the mesh's bounding box, or spacings
     (sqrt(area / vertices)) where it says so.

@@ -19,11 +19,11 @@ Examples:
 @click.argument("source", metavar="IN", type=PATH)
 @click.argument("output", metavar="OUT", type=PATH)
 def command(source: Path, output: Path) -> None:
-    """Draw the sample IN as the PNG file OUT, thrice; needs no screen.
+    """Draw the sample IN three times in the PNG file OUT; needs no screen.
 
     From left to right: the normals as colours; the first three principal components of psi as
     red, green and blue; the ratio of the stretches, from blue (1) to red, with strokes along the
-    direction of the smaller curvature, in which the triangles of a mesh will be long.
+    direction of the smaller curvature, along which the triangles of a mesh will be elongated.
     """
     from hdpea.dataset.sample_file import read_sample
     from hdpea.dataset.sample_picture import draw_sample

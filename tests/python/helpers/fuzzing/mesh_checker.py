@@ -3,11 +3,12 @@
 
 from __future__ import annotations
 
-from collections import defaultdict
 from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
+from helpers.fuzzing.distances import to_triangles
+from helpers.fuzzing.topology import boundary_loops, components_of, fans
 from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
@@ -15,6 +16,12 @@ Faces = NDArray[np.int64]
 
 FARTHEST = 1.0
 """How far from the box of the points a vertex may lie, in diagonals of a cube around it: so far apart heaps may be."""
+
+ROUNDING = 1e-9
+"""Of distances, in sides of the box; beside that of coordinates far from the origin."""
+
+BUDGET = 0.01
+"""Share of the vertices or faces asked for, or one of them, by which a mesh may differ without saying so."""
 
 
 def faults(vertices: Array, faces: Faces, points: Array, report: dict[str, Any]) -> list[str]:
@@ -24,17 +31,10 @@ def faults(vertices: Array, faces: Faces, points: Array, report: dict[str, Any])
         return [f"shapes are {vertices.shape} and {faces.shape}"]
     if faces.min() < 0 or faces.max() >= len(vertices):
         return ["a face has a vertex that does not exist"]
-    return [*_geometry(vertices, points), *_topology(len(vertices), faces, report), *_distances(points, report)]
-
-
-def _geometry(vertices: Array, points: Array) -> Iterator[str]:
     if not np.isfinite(vertices).all():
-        yield "a vertex is not finite"
-        return
-    low, high = points.min(axis=0), points.max(axis=0)
-    room = FARTHEST * np.sqrt(3) * (high - low).max()
-    if (vertices < low - room).any() or (vertices > high + room).any():
-        yield "a vertex lies far outside the box of the points"
+        return ["a vertex is not finite"]
+    topology = [*_topology(len(vertices), faces, report), *_wishes(len(vertices), len(faces), report)]
+    return [*topology, *_geometry(vertices, faces, points, report)]
 
 
 def _topology(count: int, faces: Faces, report: dict[str, Any]) -> Iterator[str]:
@@ -49,11 +49,11 @@ def _topology(count: int, faces: Faces, report: dict[str, Any]) -> Iterator[str]
     edges, uses = np.unique(np.sort(half_edges, axis=1), axis=0, return_counts=True)
     if uses.max() > 2:
         yield "an edge has more than two faces"
-    fans = _fans(count, faces)
-    if (fans != 1).any():
-        yield f"{int((fans > 1).sum())} vertices have several fans of faces, {int((fans == 0).sum())} none"
-    components = _components(faces)
-    loops = _boundary_loops(faces)
+    around = fans(count, faces)
+    if (around != 1).any():
+        yield f"{int((around > 1).sum())} vertices have several fans of faces, {int((around == 0).sum())} none"
+    components = components_of(faces)
+    loops = boundary_loops(faces)
     if told["vertices"] != count or told["faces"] != len(faces):
         yield "the report counts other vertices or faces"
     if told["closed"] != bool(uses.min() == 2) or told["boundary_loops"] != loops:
@@ -63,63 +63,39 @@ def _topology(count: int, faces: Faces, report: dict[str, Any]) -> Iterator[str]
     genus = components - (count - len(edges) + len(faces) + loops) // 2
     if told["closed"] and told["genus"] != genus:
         yield f"the report says genus {told['genus']}; it is {genus}"
-    if report["options"]["meshing"]["watertight"] and not (told["closed"] or report["missed"]):
+
+
+def _wishes(vertices: int, faces: int, report: dict[str, Any]) -> Iterator[str]:
+    asked, missed = report["options"]["meshing"], " ".join(report["missed"])
+    if asked["watertight"] and not report["mesh"]["closed"] and "watertight" not in missed:
         yield "it is not watertight, and the report does not say so"
+    for wanted, count in ((asked["vertices"], vertices), (asked["faces"], faces)):
+        if wanted is not None and abs(count - wanted) > max(1, BUDGET * wanted) and "budget" not in missed:
+            yield f"{wanted} were wanted, it has {count}, and the report does not say so"
 
 
-def _fans(count: int, faces: Faces) -> NDArray[np.int64]:
-    """Return how many fans of edge-connected faces each vertex has."""
-    links: list[dict[int, list[int]]] = [defaultdict(list) for _ in range(count)]
-    for a, b, c in faces.tolist():
-        for v, one, other in ((a, b, c), (b, c, a), (c, a, b)):
-            links[v][one].append(other)
-            links[v][other].append(one)
-    return np.array([_pieces(link) for link in links])
+def _geometry(vertices: Array, faces: Faces, points: Array, report: dict[str, Any]) -> Iterator[str]:
+    low, high = points.min(axis=0), points.max(axis=0)
+    _, exponent = np.frexp((high - low).max())  # a scale at which squares are doubles
 
+    def scaled(places: Array) -> Array:
+        return np.ldexp(places - low, -exponent)
 
-def _pieces(graph: dict[int, list[int]]) -> int:
-    pieces, seen = 0, set[int]()
-    for start in graph:
-        if start in seen:
-            continue
-        pieces += 1
-        waiting = [start]
-        while waiting:
-            node = waiting.pop()
-            if node not in seen:
-                seen.add(node)
-                waiting.extend(graph[node])
-    return pieces
-
-
-def _components(faces: Faces) -> int:
-    of_edge, graph = dict[tuple[int, int], int](), dict[int, list[int]]()
-    for face, (a, b, c) in enumerate(faces.tolist()):
-        graph[face] = []
-        for edge in ((a, b), (b, c), (c, a)):
-            key = (min(edge), max(edge))
-            other = of_edge.setdefault(key, face)
-            if other != face:
-                graph[face].append(other)
-                graph[other].append(face)
-    return _pieces(graph)
-
-
-def _boundary_loops(faces: Faces) -> int:
-    half_edges = {edge for a, b, c in faces.tolist() for edge in ((a, b), (b, c), (c, a))}
-    border = defaultdict(list)
-    for a, b in half_edges:
-        if (b, a) not in half_edges:
-            border[a].append(b)
-            border[b].append(a)
-    return _pieces(border)
-
-
-def _distances(points: Array, report: dict[str, Any]) -> Iterator[str]:
-    told = report["distances"]["in_world_units"]
-    if not all(np.isfinite(value) and value >= 0 for value in told.values()):
-        yield "the report has a distance that is no number"
-    elif not told["mean"] <= told["rms"] * (1 + 1e-9) <= told["max"] * (1 + 2e-9):
-        yield "the mean, rms and largest distance are not in order"
+    rounding = ROUNDING + 8 * np.ldexp(np.spacing(abs(points).max()), -exponent)
+    box, places = scaled(high), scaled(vertices)
+    room = FARTHEST * np.sqrt(3) * box.max() + rounding
+    if (places < -room).any() or (places > box + room).any():
+        yield "a vertex lies far outside the box of the points"
     if report["counts"]["points"] != len(points):
         yield f"the report counts {report['counts']['points']} points; there are {len(points)}"
+    told = report["distances"]["in_world_units"]
+    to_mesh = to_triangles(scaled(points), places[faces])
+    true = {
+        "mean": to_mesh.mean(),
+        "rms": (to_mesh**2).mean() ** 0.5,
+        "percentile_95": np.percentile(to_mesh, 95),
+        "max": to_mesh.max(),
+    }
+    for name, value in true.items():
+        if not abs(np.ldexp(told[name], -exponent) - value) <= rounding * 2:
+            yield f"the report's {name} distance is {told[name]}; it is {np.ldexp(value, exponent)}"
