@@ -26,7 +26,7 @@ FLOAT32_LEAST, FLOAT32_MOST = 1e-30, 1e30
 """Sizes of meshes between which single precision has all its digits for their details, too."""
 
 
-def write_mesh(path: Path, vertices: ArrayLike, faces: ArrayLike) -> None:
+def write_mesh(path: str | Path, vertices: ArrayLike, faces: ArrayLike) -> None:
     """Write a triangle mesh as OBJ, PLY, OFF, STL or GLB, by the extension of `path`.
 
     OBJ, PLY and OFF hold the vertices exactly. STL is binary, or text where single precision would
@@ -47,6 +47,7 @@ def write_mesh(path: Path, vertices: ArrayLike, faces: ArrayLike) -> None:
     UsageError
         If the file cannot be written, or the arrays are no mesh.
     """
+    path = Path(path)
     check_output(path, MESH_FORMATS)
     vertices, faces = _checked(vertices, faces)
     with replacing(path) as partial:
