@@ -22,14 +22,14 @@ SURFACE = "#f4f4f4"
 """Colour of the disks below the glyphs."""
 
 SIDES = 12
-"""Of the polygons that round shapes are."""
+"""Of the polygons that stand for circles."""
 
 
 def draw_curvature(path: Path, tensors: CurvatureTensors, size: tuple[int, int] = (1600, 1200)) -> None:
     """Draw tensors as ellipsoids on the points, coloured by stretching ratio: blue where 1, red where largest.
 
-    Those along the surface's smaller curvature are long; where the directions are not determined they are round and
-    grey (paper, section 4.3).
+    They are long in the direction of the smaller curvature, and round and grey where the directions are not determined
+    (as in the HD-PEA paper, appendix G).
 
     Parameters
     ----------
@@ -45,7 +45,7 @@ def draw_curvature(path: Path, tensors: CurvatureTensors, size: tuple[int, int] 
     """
     glyphs = glyphs_of(tensors, GLYPHS)
     view_from_unit = choose_view_of_points(glyphs.centres, glyphs.normals)
-    # As on the page: the far side would show through the gaps between the disks.
+    # As on the HTML page: the far side would show through the gaps between the disks.
     facing = (glyphs.normals @ view_from_unit.T)[:, 2] > 0
     centres, axes = glyphs.centres[facing], glyphs.axes[facing]
     with drawn_to(path, window_size=list(size), lighting="none") as (pyvista, plotter):

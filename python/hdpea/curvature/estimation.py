@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""From a cloud to its curvature tensors: principal directions, curvatures, stretches and the metric they make."""
+"""From a cloud to its curvature tensors: principal directions, curvatures, stretches and the metric."""
 
 from __future__ import annotations
 
@@ -8,9 +8,9 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from hdpea.curvature.carrying import carried_over
 from hdpea.curvature.from_embedding import estimate_from_embedding
 from hdpea.curvature.from_jets import estimate_from_jets
+from hdpea.curvature.interpolation import interpolated_estimate
 from hdpea.curvature.options import (
     MOST_NORMAL_NEIGHBORS,
     MOST_POINTS,
@@ -100,7 +100,7 @@ def _resolution(points: int, vertices: int | None) -> tuple[int, NDArray[np.int6
 
 
 def _fitting_of_normals(cloud: PointCloud, options: CurvatureOptions) -> tuple[NormalOptions, tuple[Choice, ...]]:
-    """Fit normals to more neighbours the noisier the cloud: curvature is their change, which shows noise the most."""
+    """Fit normals to more neighbours the noisier the cloud is: curvature, their derivative, amplifies noise."""
     given = cloud.normals is not None and cloud.normals.any(axis=1).all() and options.normals.normals != "estimate"
     if given or options.normals.normal_neighbors is not None or options.estimation.method == "jet":
         return options.normals, ()
@@ -115,8 +115,10 @@ def _fitting_of_normals(cloud: PointCloud, options: CurvatureOptions) -> tuple[N
 def _at_all_points(
     cloud: PointCloud, surface: Surface, estimate: Estimate, metric: Metric | None, signed: bool
 ) -> Estimate:
-    everywhere = carried_over(surface.points_in_unit, estimate, metric, signed, surface.frame.to_unit(cloud.points))
-    why = f"more would show no finer curvature; carried over to all {len(cloud.points):,} from the nearest"
+    everywhere = interpolated_estimate(
+        surface.points_in_unit, estimate, metric, signed, surface.frame.to_unit(cloud.points)
+    )
+    why = f"more would show no finer curvature; interpolated at all {len(cloud.points):,}"
     choice = Choice("estimated_at", len(surface.points_in_unit), "points", why)
     return replace(everywhere, choices=(choice, *everywhere.choices))
 
@@ -162,6 +164,6 @@ def _notes(estimate: Estimate) -> list[str]:
         f"Points where the surface is flat or round, so that any direction is a principal one: {undetermined:,}.": (
             undetermined
         ),
-        f"Points with too few neighbours to tell: {unknown:,}.": unknown,
+        f"Points with too few neighbours to estimate curvature: {unknown:,}.": unknown,
     }
     return [note for note, count in told.items() if count]

@@ -16,25 +16,25 @@ from hdpea.surface.surface import Surface
 SURE = 0.1
 """Standard error of the directions, in radians, up to which they are determined, and a jet needs no more neighbours.
 
-At half as much again, 5 % of the points of a noisy plane would have directions that are none."""
+With 1.5 times this, 5 % of the points of a noisy plane would get directions."""
 
 SURELY_FLAT = 0.25
-"""Standard error of the curvatures, in 1 / unit length, at which it needs none either: what bends less looks flat."""
+"""Standard error of the curvatures, in 1 / unit length, at which it needs no more either: less looks flat."""
 
 FEW_UNSURE = 0.05
 """Share of unsure points that a clean cloud may have, at creases; with more, it is noisy."""
 
 ROUND = 0.05
-"""Difference of the curvatures, as a share of the larger, up to which all directions are principal ones."""
+"""Difference of the curvatures, as a share of the larger, up to which a point counts as umbilic."""
 
 FLAT = 0.05
-"""The same in 1 / unit length: the radius of what bends less is twenty times the cloud."""
+"""The same in 1 / unit length: a radius of twenty diagonals."""
 
 
 def estimate_from_jets(surface: Surface, metric: Metric, neighbors: int | None) -> Estimate:
     """Fit jets to each point and its neighbours of the same sheet, to more of them where noise needs it.
 
-    The stretches are those of the true `metric` of the curvatures found.
+    The stretches are those of the `metric` for these curvatures.
     """
     jets = _fit(surface, neighbors)
     curvatures, direction1 = jets.curvature.principal, jets.curvature.direction1

@@ -18,7 +18,7 @@ from hdpea.pictures.colors import Colors, ratio_colors
 Rows = NDArray[np.float64]
 
 CANDIDATES = 50_000
-"""Points among which glyphs are placed: enough for any picture, and quickly looked through."""
+"""Most points that glyphs are chosen from: enough for any picture, and fast."""
 
 FILLING = 0.5
 """Radius of a round glyph in distances of neighbouring glyphs: they just touch."""
@@ -30,7 +30,7 @@ PLATE = 2.0
 """Radius, in radii of round glyphs, of the disk below each glyph that hides what lies behind the surface."""
 
 LONGEST = 2.5
-"""Half length of the longest glyph in the same radii: the colour tells what the shape does not."""
+"""Half length of the longest glyph in the same radii: beyond it, only the colour shows the ratio."""
 
 REDDEST = 95
 """Percentile of the ratios, where determined, from which the colour is red; but at least ``LEAST_RED``."""

@@ -10,12 +10,12 @@ from hdpea.options import Checked, EmbeddingOptions, NormalOptions, option
 from hdpea.options.meshing import POINTS_PER_VERTEX
 
 EMBEDDING_NEIGHBORS = 40
-"""Of the embedding's metric; the paper has 6. With noise more is better, without it makes no difference."""
+"""That the metric of an embedding is fitted to. The HD-PEA paper (section 4.2) takes 6; with noise, more are better."""
 
 NORMAL_NEIGHBORS_PER_NOISE, MOST_NORMAL_NEIGHBORS = 400, 200
-"""Of the normals that the embedding bends by: for each spacing of noise, and the most.
+"""Neighbours that normals are fitted to for an embedding: per spacing of noise, and at most.
 
-A plane's slope is off by 2 sqrt(pi) noise / (spacing n) with n neighbours: so by half a degree."""
+The slope of a plane has the standard error 2 sqrt(pi) noise / (spacing n) with n neighbours: here half a degree."""
 
 JET_NEIGHBORS = 24
 """Of a jet where the points are clean: fewer are no better."""
@@ -24,7 +24,7 @@ MOST_JET_NEIGHBORS = 216
 """Of a jet where they are noisy."""
 
 MOST_POINTS = 100_000
-"""Points that tensors are estimated at, unless more vertices are asked for; a larger cloud is thinned.
+"""Most points at which tensors are estimated, unless more vertices are asked for; a larger cloud is thinned.
 
 Eight for each of 12,500 vertices, which lie 0.7 % of the diagonal apart on a typical surface: about the smallest radius
 of curvature that the metric can express, 1/128 of the diagonal."""
@@ -49,14 +49,14 @@ class EstimationOptions(Checked):
         None,
         f"the embedding shows as much detail as a mesh of so many vertices; default: one for every {POINTS_PER_VERTEX} "
         f"points, at most {MOST_POINTS // POINTS_PER_VERTEX:,}; a cloud of more than {MOST_POINTS:,} points and more "
-        f"than {POINTS_PER_VERTEX} for each vertex is thinned to these, and tensors are carried over to all points",
+        f"than {POINTS_PER_VERTEX} for each vertex is thinned to these, and tensors are interpolated at all points",
         minimum=4,
     )
 
 
 @dataclass(frozen=True)
 class CurvatureOptions(Checked):
-    """Everything ``hdpea.estimate_curvature`` can be told."""
+    """All options of ``hdpea.estimate_curvature``."""
 
     estimation: EstimationOptions = EstimationOptions()
     normals: NormalOptions = NormalOptions()

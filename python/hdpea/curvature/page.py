@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Curvature tensors as one HTML file, to turn and zoom in any browser, without a network."""
+"""Curvature tensors as one HTML file that any browser shows offline, to rotate and zoom."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from hdpea.runtime.outputs import check_output, replacing
 PAGE_FORMATS = (".html", ".htm")
 
 GLYPHS = 3_000
-"""Drawn anew with every move of the mouse."""
+"""Most glyphs: all are drawn again with every movement of the mouse."""
 
 TEMPLATE = Path(__file__).with_name("page.html")
 
@@ -27,8 +27,7 @@ TEMPLATE = Path(__file__).with_name("page.html")
 def write_page(path: Path, tensors: CurvatureTensors, title: str = "curvature") -> None:
     """Write the ellipsoids of ``draw_curvature`` as a page that needs nothing but a browser.
 
-    Ellipsoids in parallel projection are ellipses, which a canvas draws: no WebGL, so it works on a machine
-    without a graphics card, too.
+    Ellipsoids in parallel projection are ellipses, which a canvas can draw: it needs no WebGL and no graphics card.
 
     Parameters
     ----------

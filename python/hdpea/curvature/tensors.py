@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Curvature tensors of a cloud: what an estimator finds in the unit frame, and what users get in the world."""
+"""Curvature tensors of a cloud: an estimate in the unit frame, and the result in world units."""
 
 from __future__ import annotations
 
@@ -15,14 +15,14 @@ Rows = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Estimate:
-    """What an estimator says of each point of a surface, in the unit frame.
+    """The estimate at each point of a surface, in the unit frame.
 
     Attributes
     ----------
     normals
         (n, 3) float64, unit.
     direction1
-        (n, 3) float64, unit tangents of k1, or anything where not `determined`.
+        (n, 3) float64, unit tangents of k1, arbitrary where not `determined`.
     stretches, curvatures
         (n, 2) float64: s1 >= s2, and k1, k2 with |k1| >= |k2|, in 1 / unit length; NaN where unknown.
     determined
@@ -58,16 +58,16 @@ class CurvatureTensors:
     metric
         (n, 3, 3) float64: the metric tensor s1^2 d1 d1^T + s2^2 d2 d2^T + n n^T; NaN where unknown.
     determined
-        (n,) bool: False where the surface is flat or round, as far as the points tell, so that any two
+        (n,) bool: False where the surface is flat or round within the accuracy of the estimate, so that any two
         directions are principal ones, and where there are too few neighbours.
     signed
         Whether curvatures have signs.
     curvature_range
-        What can be told of |k|: a value at an end of it means that or beyond.
+        The |k| that can be estimated: a value at an end of the range means that or beyond.
     choices
         What was chosen automatically.
     notes
-        What a user should know, in sentences.
+        Remarks for the user, one sentence each.
     """
 
     points: Rows

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Embedding a surface in R^8, where its curvature metric is Euclidean.
 
-Every way of embedding is one function ``(surface, vertices, options, progress) -> Embedded`` in a module of
+Every method of embedding is one function ``(surface, vertices, options, progress) -> Embedded`` in a module of
 its own, listed in ``EMBEDDERS``; the other stages see the coordinates only.
 """
 
@@ -63,9 +63,9 @@ def embed_surface(
     progress: ProgressCallback | None = None,
     embedder: Embedder | None = None,
 ) -> Embedded:
-    """Embed an oriented surface at the scale that a mesh of so many `vertices` can show.
+    """Embed an oriented surface at the scale that a mesh with that many `vertices` can show.
 
-    `embedder` takes the place of the one that the options name.
+    `embedder` replaces the one that the options name.
     """
     embedder = embedder or EMBEDDERS[options.embedding]
     with core_errors_translated():

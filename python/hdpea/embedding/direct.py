@@ -21,10 +21,10 @@ from hdpea.surface.triangle_soup import triangle_soup
 def embed_directly(
     surface: Surface, vertices: int, options: EmbeddingOptions, progress: Callable[[float], bool]
 ) -> Embedded:
-    """Return the embedding [p, psi] of a surface, at the scale of a mesh of so many `vertices`.
+    """Return the embedding [p, psi] of a surface, at the scale of a mesh with that many `vertices`.
 
-    Curvature is fitted to the normals, a soup of tangential Delaunay triangles stands in for a mesh, and
-    psi is solved for on it (``solve_embedding`` of the core).
+    Curvature is fitted to the normals; psi is solved for on a soup of restricted Delaunay triangles in place of a mesh
+    (``solve_embedding`` of the core).
     """
     points, normals = surface.points_in_unit, surface.normals
     soup = triangle_soup(points, normals, surface.neighbors)

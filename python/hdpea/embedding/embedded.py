@@ -23,8 +23,8 @@ class Embedded:
     choices
         The lengths that were chosen automatically, in world units.
     metric
-        Under which distances in R^8 are lengths; None if the embedder does not know, and then no curvature
-        can be told from them.
+        Distances in R^8 are lengths under it; None if the embedder does not know it, and then no curvature can be
+        derived from them.
     """
 
     coordinates: NDArray[np.float64]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The learned embedding: a network gives psi at once."""
+"""The learned embedding: a network predicts psi."""
 
 from __future__ import annotations
 
@@ -17,16 +17,17 @@ from hdpea.options.choice import Choice
 from hdpea.surface.surface import NEIGHBORS, Surface, area_shown
 
 PER_VERTEX = (4.0, 12.0)
-"""Points for each vertex that training has seen: 20,000 to 60,000 for 5,000 vertices."""
+"""Least and most points per vertex in training: 20,000 to 60,000 for 5,000 vertices."""
 
 
 def embed_learned(
     surface: Surface, vertices: int, options: EmbeddingOptions, progress: Callable[[float], bool]
 ) -> Embedded:
-    """Return the embedding [p, psi] of a surface by a trained network, at the scale of a mesh of so many `vertices`.
+    """Return the embedding [p, psi] of a surface by a network, at the scale of a mesh with that many `vertices`.
 
-    A cloud of many more points per vertex than training has seen is thinned before the network, and psi carried
-    over to all its points; one of fewer is embedded at the scale of a mesh that it could show.
+    A cloud of more points per vertex than there were in training is thinned before the network, and psi interpolated
+    at all its points; one of fewer is embedded at the scale of the finest mesh that it could show. The metric is the
+    one that the network was trained on.
 
     Raises
     ------

@@ -10,10 +10,10 @@ from hdpea import _core
 from hdpea.errors import core_errors_translated
 
 TANGENT_NEIGHBORS = 12
-"""Neighbours whose plane is the tangent plane (paper, section 3.2), where there are up to 8 points per vertex."""
+"""Neighbours that a tangent plane is fitted to (HD-PEA paper, section 3.2), for up to 8 points per vertex."""
 
 PER_VERTEX = 1.5
-"""Neighbours in points per vertex, where there are more: a redundant cloud lets noise be averaged out."""
+"""Neighbours per point per vertex, where there are more: noise of a redundant cloud is averaged out."""
 
 
 def tangent_bases(
@@ -24,8 +24,8 @@ def tangent_bases(
 ) -> NDArray[np.float64]:
     """Return an orthonormal basis (n, 2, d) of the tangent plane at each embedded point.
 
-    The plane across the normal, and on it an affine fit of the extra coordinates. The paper (section 3.2) takes
-    PCA in R^d, which does not know the normal and loses the plane on thin parts.
+    The plane across the normal, and on it an affine fit of the extra coordinates. The HD-PEA paper (section 3.2) uses
+    PCA in R^d, which does not take the normal into account and fails on thin parts.
 
     Parameters
     ----------
@@ -34,8 +34,8 @@ def tangent_bases(
     normals
         (n, 3) float64, unit.
     neighbors
-        (n, k) int64: neighbours *in R^3*, of the same sheet, padded with -1. Neighbours in R^d
-        would jump between folds (the paper's ablation).
+        (n, k) int64: neighbours *in R^3*, of the same sheet, padded with -1. Neighbours in R^d would jump between folds
+        (HD-PEA paper, section 4.3).
     points_per_vertex
         Points for each vertex that the mesh will have: with more, planes are fitted to more neighbours.
     """

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Thinning a cloud that has more points than are needed."""
+"""Random subsets of clouds with more points than needed."""
 
 from __future__ import annotations
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Averages over neighbours that leave what is affine alone: the intercept of a weighted least-squares fit."""
+"""Averages over neighbours that reproduce affine functions: the intercept of a weighted least-squares fit."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from torch import Tensor
 from hdpea.network.layers import rows
 
 RIDGE = 1e-3
-"""Added to the squared tangent coordinates, in squared radii, lest neighbours on a line leave the map open."""
+"""Added to the squared tangent coordinates, in squared radii: neighbours on a line do not determine a map."""
 
 
 @dataclass
@@ -23,8 +23,7 @@ class Neighborhoods:
     members
         (n, k) int64: the point itself, then its neighbours; the point again where there are fewer.
     weights
-        (n, k) float32, summing to 1: the less the more the normals differ, since the far side of a thin wall has no
-        say.
+        (n, k) float32, summing to 1: they fall with the angle between the normals, to 0 on the far side of a thin wall.
     design
         (n, k, 3): 1, then the tangent coordinates in radii of the neighbourhood.
     normal_matrix
@@ -44,19 +43,19 @@ class Neighborhoods:
         """Prepare the fits around points (n, 3) with unit normals (n, 3) and neighbours (n, k), -1 pads."""
         itself = torch.arange(len(points), device=points.device)[:, None]
         members = torch.cat([itself, torch.where(neighbors < 0, itself, neighbors)], dim=1)  # (n, k)
-        way = rows(points, members) - points[:, None]  # (n, k, 3)
-        radius = way.norm(dim=2).amax(dim=1).clamp_min(1e-12)  # (n,)
+        offset = rows(points, members) - points[:, None]  # (n, k, 3)
+        radius = offset.norm(dim=2).amax(dim=1).clamp_min(1e-12)  # (n,)
         cosine = (rows(normals, members) * normals[:, None]).sum(dim=2)
         weights = ((1 + cosine) / 2).clamp_min(0).square()
         weights = weights / weights.sum(dim=1, keepdim=True)  # (n, k)
-        tangent = way @ tangents(normals).mT / radius[:, None, None]  # (n, k, 2)
+        tangent = offset @ tangents(normals).mT / radius[:, None, None]  # (n, k, 2)
         design = torch.cat([torch.ones_like(tangent[:, :, :1]), tangent], dim=2)  # (n, k, 3)
         normal_matrix = design.mT @ (design * weights[:, :, None])
         ridge = RIDGE * torch.eye(3, dtype=points.dtype, device=points.device)
         return cls(members, weights, design, normal_matrix + ridge, radius)
 
     def averaging(self) -> Tensor:
-        """Return the weights (n, k) of the members in the value that the fit gives the point itself."""
+        """Return the weights (n, k) of the members in the value of the fit at the point itself."""
         unit = torch.zeros_like(self.normal_matrix[:, :, :1])
         unit[:, 0] = 1
         intercept = torch.linalg.solve(self.normal_matrix, unit)  # (n, 3, 1)
@@ -68,15 +67,15 @@ class Neighborhoods:
 
         Returns
         -------
-        The gradient (n, 2, c) along two tangents, and the root mean square (n,) of what the map leaves over,
-        in radii of the neighbourhood.
+        The gradient (n, 2, c) along two tangents, and the root mean square (n,) of the residual, in radii of the
+        neighbourhood.
         """
         values = (rows(psi, self.members) - psi[:, None]) / self.radius[:, None, None]  # (n, k, c)
         weighted = self.design.mT @ (values * self.weights[:, :, None])  # (n, 3, c)
         coefficients = torch.linalg.solve(self.normal_matrix, weighted)
-        left = values - self.design @ coefficients  # (n, k, c)
-        squared = (left.square().sum(dim=2) * self.weights).sum(dim=1)
-        # The root of 0 has no gradient.
+        residual = values - self.design @ coefficients  # (n, k, c)
+        squared = (residual.square().sum(dim=2) * self.weights).sum(dim=1)
+        # The square root has no gradient at 0.
         return coefficients[:, 1:], (squared + 1e-12).sqrt()
 
 

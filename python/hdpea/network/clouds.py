@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A batch of clouds, one after the other, as the network reads it."""
+"""A batch of clouds, the input of the network."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ GAP = 64.0
 
 @dataclass
 class Clouds:
-    """Clouds side by side; nothing is padded. Lengths are in spacings, sqrt(area / vertices) of the mesh to come.
+    """Clouds one after the other, without padding. Lengths are in spacings, sqrt(area / vertices) of the mesh to make.
 
     Attributes
     ----------
@@ -99,7 +99,7 @@ class Clouds:
 
 
 def centred_points(points: NDArray[np.floating]) -> NDArray[np.float64]:
-    """Return points (n, 3) relative to the middle of their bounding box, which no order of them changes."""
+    """Return points (n, 3) relative to the middle of their bounding box, which does not depend on their order."""
     wide = np.asarray(points, np.float64)
     lowest = wide.min(axis=0)
     return np.ascontiguousarray(wide - (lowest + (wide.max(axis=0) - lowest) / 2))
@@ -108,8 +108,8 @@ def centred_points(points: NDArray[np.floating]) -> NDArray[np.float64]:
 def moved_together(points: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return points (n, 3), in spacings, with wide gaps between them narrowed where the cloud is very large.
 
-    Clusters that are far apart for their size would be beyond the voxels, and be points to float32. Along each axis in
-    turn, gaps wider than ``GAP`` are cut down to it, so that every cluster stays as it is. A cloud that lies within
+    Clusters that are far apart for their size would lie beyond the voxels, and float32 would not resolve them. Gaps
+    wider than ``GAP`` along an axis are cut down to it, which only translates the clusters. A cloud that lies within
     ``FAR`` of its centre is returned unchanged.
     """
     if not len(points) or abs(points).max() <= FAR:

@@ -7,20 +7,20 @@ import torch
 from torch import Tensor
 
 BITS = 16
-"""Bits of a voxel's coordinate, 0 to 65,535 on each axis: with three axes, 15 bits of a key are left for the cloud."""
+"""Bits of a voxel's coordinate, 0 to 65,535 on each axis: with three axes, 15 bits of a key remain for the cloud."""
 
 CURVES = ("z", "z_transposed", "hilbert", "hilbert_transposed")
 
 
 def curve_keys(cells: Tensor, curve: str) -> Tensor:
-    """Return where each cell lies along a curve, distinct for distinct cells.
+    """Return the position of each cell along a curve, distinct for distinct cells.
 
     Parameters
     ----------
     cells
         (n, 3) int64, 0 to 2^16 - 1.
     curve
-        One of ``CURVES``; the transposed ones have x and y exchanged, so that they cut space elsewhere.
+        One of ``CURVES``; the transposed ones have x and y exchanged, so that they cut space in other places.
 
     Returns
     -------

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Psi of clouds by a trained network and some rounds of the solver: at once, or in patches."""
+"""psi of a cloud by a trained network and some rounds of the solver: as a whole or in patches."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ def predict_psi(
 ) -> Array:
     """Return the extra coordinates psi (n, 5) of points, in their own units.
 
-    Points are put in an order of their own first, so that theirs does not matter to the last bit.
+    Points are sorted first, so that the result does not depend on their order, to the last bit.
 
     Parameters
     ----------
@@ -46,11 +46,11 @@ def predict_psi(
     neighbors
         (n, k): nearest points of the same sheet, nearest first, -1 pads.
     spacing
-        sqrt(area / vertices) of the mesh to come, in the points' units: the scale of the metric.
+        sqrt(area / vertices) of the mesh to make, in the unit of the points: the scale of the metric.
     whole_points
         Clouds of more points than this are embedded in patches.
     progress
-        Is told the share that is done; False cancels.
+        Called with the fraction done; False cancels.
     rounds
         Of the solver after the network (``settled``).
 
@@ -76,7 +76,7 @@ def predict_psi(
 
 
 def canonical_order(points: Array) -> NDArray[np.int64]:
-    """Return the order (n,) of points (n, 3) by z, y, x, whatever order they come in."""
+    """Return the order (n,) of distinct points (n, 3) by z, then y, then x."""
     return np.lexsort(points.T)
 
 

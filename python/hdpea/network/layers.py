@@ -14,7 +14,7 @@ from hdpea.network.voxels import Voxels
 
 
 def rows(values: Tensor, index: Tensor) -> Tensor:
-    """Return values (n, c) at index (...) as (..., c); unlike indexing, its gradient has one value on any threads."""
+    """Return values (n, c) at index (...) as (..., c); the gradient does not depend on the number of threads."""
     return functional.embedding(index, values)
 
 
@@ -55,7 +55,7 @@ class SparseConvolution(nn.Module):
 
     def __init__(self, channels: int) -> None:
         super().__init__()
-        # As torch starts a linear layer, for the dozen of neighbours that a voxel of a surface has.
+        # As torch initialises a linear layer, for the 12 or so neighbours that a voxel of a surface has.
         bound = (12 * channels) ** -0.5
         self.weight = nn.Parameter(torch.empty(27, channels, channels).uniform_(-bound, bound))
 
@@ -90,10 +90,10 @@ class PatchAttention(nn.Module):
 
 
 def patches(order: Tensor, counts: Tensor, size: int) -> tuple[Tensor, Tensor, Tensor]:
-    """Cut the order of voxels along a curve into patches that no two clouds share.
+    """Cut the order of voxels along a curve into patches, each within one cloud.
 
-    The last patch of a cloud reaches back into the one before, so that it is as full as the others; only a
-    cloud of fewer than `size` voxels is padded.
+    The last patch of a cloud overlaps the one before, so that it is as full as the others; only a cloud of fewer than
+    `size` voxels is padded.
 
     Parameters
     ----------
@@ -117,7 +117,7 @@ def patches(order: Tensor, counts: Tensor, size: int) -> tuple[Tensor, Tensor, T
     within = start[:, None] + steps  # (p, k)
     real = within < counts[cloud, None]
     position = first[cloud, None] + within.where(real, 0)
-    # Where patches overlap, the voxel's own is the one that its rank alone would give.
+    # Where patches overlap, a voxel belongs to the one that its rank alone gives.
     rank = torch.arange(len(order), device=order.device)
     own_cloud = torch.repeat_interleave(counts)
     own_rank = rank - first[own_cloud]
@@ -128,7 +128,7 @@ def patches(order: Tensor, counts: Tensor, size: int) -> tuple[Tensor, Tensor, T
 
 
 class Block(nn.Module):
-    """Convolution as position, then attention, then an MLP, each normalised before and added."""
+    """Convolution (for position), attention and an MLP, each residual and with its input normalised."""
 
     def __init__(self, channels: int, head_width: int, patch_size: int, mlp_ratio: int) -> None:
         super().__init__()

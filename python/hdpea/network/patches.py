@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Patch-based meta-embedding (PMEI; paper, section 3.1 and appendix H): large clouds, patch by patch.
+"""Patch-based meta-embedding (PMEI; HD-PEA paper, section 3.1 and appendix H): large clouds, patch by patch.
 
-Each patch is embedded on its own, wherever that may be, so two of them differ on the points they share. They are
-aligned along the minimum spanning tree of their centres, each to all that were aligned before it, and averaged. The
-paper's affine maps shrink and drift along the tree; here psi is only turned and shifted, the positions are the cloud's
-own, and sweeps over all patches close the loops that a tree leaves open.
+Patches are embedded independently, so two of them differ by a rotation and a translation on the points they share.
+They are aligned along the minimum spanning tree of their centres, each to all that were aligned before it, and
+averaged. The affine maps of the HD-PEA paper shrink and drift along the tree; here psi is only rotated and translated,
+the positions are those of the cloud, and sweeps over all patches close the loops that a tree leaves open.
 """
 
 from __future__ import annotations
@@ -18,16 +18,16 @@ from numpy.typing import NDArray
 from hdpea import _core
 
 OVERLAP = 2.0
-"""Patches that hold a point, on average."""
+"""Number of patches that contain a point, on average."""
 
 SWEEPS = 2
-"""Times that every patch is aligned anew to all others."""
+"""Number of times that every patch is aligned again to all others."""
 
 BORDER = 1e-3
-"""Weight of a patch's outermost point, beside 1 at its centre."""
+"""Weight of a patch's outermost point; it is about 1 at the centre."""
 
 STIFFNESS = 0.001
-"""Pull towards no turn at all, in squared spacings: where psi is flat, the shared points leave turns open."""
+"""Pull towards no rotation, in squared spacings: where psi is flat, the shared points do not determine one."""
 
 Array = NDArray[np.float64]
 
@@ -41,7 +41,7 @@ class Patch:
     members
         (k,) int64, ascending.
     weights
-        (k,): how much each counts in an average; little at the border, where the network sees one side only.
+        (k,): weight of each in an average; small at the border, where the network sees one side only.
     """
 
     members: NDArray[np.int64]
@@ -49,14 +49,14 @@ class Patch:
 
 
 def cut_patches(points: Array, size: int) -> tuple[NDArray[np.int64], list[Patch]]:
-    """Return centres (l,) int64 and patches of `size` points that overlap and together hold every point of (n, 3)."""
+    """Return centres (l,) int64 and patches of `size` points that overlap and together contain all points (n, 3)."""
     wanted = int(np.ceil(OVERLAP * len(points) / size))
     centres = list(_core.farthest_point_sampling(points, wanted))
     patches = [_patch(points, centre, size) for centre in centres]
     held = np.zeros(len(points), bool)
     for each in patches:
         held[each.members] = True
-    # The nearest points of even centres leave gaps where points are dense.
+    # Evenly spread centres leave gaps between their patches where points are dense.
     while not held.all():
         centres.append(np.flatnonzero(~held)[0])
         patches.append(_patch(points, centres[-1], size))
@@ -109,19 +109,19 @@ class _Total:
         self.weights[patch.members] += sign * patch.weights
 
     def aligned(self, patch: Patch, psi: Array) -> Array:
-        """Return psi (k, 5) turned and shifted to agree with what is there; as it is where nothing is."""
+        """Return psi (k, 5) rotated and translated to fit the sums so far; unchanged if no point is shared."""
         there = self.weights[patch.members]
         shared = there > BORDER / 2
         if not shared.any():
             return psi
         weights = patch.weights[shared] * there[shared]
         target = self.sums[patch.members][shared] / there[shared, None]
-        turn, shift = isometry(psi[shared], target, weights)
-        return psi @ turn + shift
+        rotation, translation = isometry(psi[shared], target, weights)
+        return psi @ rotation + translation
 
 
 def isometry(source: Array, target: Array, weights: Array) -> tuple[Array, Array]:
-    """Return the orthogonal (d, d) and the shift (d,) with source @ orthogonal + shift nearest to target (m, d).
+    """Return the orthogonal matrix (d, d) and translation (d,) that map source (m, d) as close as possible to target.
 
     Weighted least squares (Kabsch 1976, reflections allowed), with a slight pull towards the identity.
     """
@@ -129,8 +129,8 @@ def isometry(source: Array, target: Array, weights: Array) -> tuple[Array, Array
     middle, wanted = share @ source, share @ target
     covariance = (source - middle).T @ (share[:, None] * (target - wanted))
     u, _, vt = np.linalg.svd(covariance + STIFFNESS * np.eye(len(covariance)))
-    turn: Array = u @ vt
-    return turn, wanted - middle @ turn
+    rotation: Array = u @ vt
+    return rotation, wanted - middle @ rotation
 
 
 def spanning_order(centres: Array) -> list[int]:

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """From the network's psi to one that satisfies the metric: some rounds of the core's solver.
 
-A network knows how psi runs over a part, and is vague about the last percents; local/global iteration is the other
-way round: from a start that knows nothing it takes many rounds until the parts agree, from a good one very few.
+A network predicts how psi varies over a whole part, with an error of some percent. Local/global iteration is the
+opposite: it is accurate locally, but takes many rounds until distant parts agree, unless it starts close to a solution.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from hdpea.geometry.metric import ScaledMetric
 from hdpea.surface.triangle_soup import triangle_soup
 
 ROUNDS = 8
-"""Default number of local/global iterations; ``benchmarks/settling_table.py`` compares other numbers."""
+"""Default number of local/global iterations; ``benchmarks/settling_table.py`` compares others."""
 
 Array = NDArray[np.float64]
 
@@ -43,7 +43,7 @@ def settled(
     metric
         The one that the network was trained on, in spacings.
     rounds
-        Of the solver.
+        Iterations of the solver; 0 returns psi as it is.
     """
     if not rounds:
         return psi

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The first features of points: edge convolutions that see how normals turn, which is curvature."""
+"""The first features of points: edge convolutions, which see the change of normals, that is, curvature."""
 
 from __future__ import annotations
 
@@ -12,10 +12,11 @@ EDGE_FEATURES = 13
 
 
 def edge_features(points: Tensor, normals: Tensor, neighbors: Tensor) -> Tensor:
-    """Return what there is to know of each edge to a neighbour.
+    """Return the features of the edge to each neighbour.
 
-    The way there, the change of the normal, the normal itself; then what no rotation changes: the length, how
-    far the neighbour lies above the tangent plane, how far the point above the neighbour's, the normals' cosine.
+    The offset to it, the change of the normal, the normal itself; then features that are invariant to rotation: the
+    length, the height of the neighbour above the tangent plane, that of the point above the neighbour's tangent plane
+    (negated), and the cosine of the normals.
 
     Parameters
     ----------
@@ -28,22 +29,22 @@ def edge_features(points: Tensor, normals: Tensor, neighbors: Tensor) -> Tensor:
     -------
     (n, k, 13) float32.
     """
-    way = rows(points, neighbors) - points[:, None]  # (n, k, 3)
-    here, there = normals[:, None].expand_as(way), rows(normals, neighbors)
-    length = way.norm(dim=2, keepdim=True)
-    above = (way * here).sum(dim=2, keepdim=True)
-    below = (way * there).sum(dim=2, keepdim=True)
+    offset = rows(points, neighbors) - points[:, None]  # (n, k, 3)
+    here, there = normals[:, None].expand_as(offset), rows(normals, neighbors)
+    length = offset.norm(dim=2, keepdim=True)
+    above = (offset * here).sum(dim=2, keepdim=True)
+    below = (offset * there).sum(dim=2, keepdim=True)
     cosine = (here * there).sum(dim=2, keepdim=True)
-    return torch.cat([way, there - here, here, length, above, below, cosine], dim=2)
+    return torch.cat([offset, there - here, here, length, above, below, cosine], dim=2)
 
 
 class EdgeConvolution(nn.Module):
-    """Features of a point from those of its neighbours and the edges to them (Wang et al. 2019): mean and maximum."""
+    """Mean and maximum over the neighbours of a point of their features and those of the edges (Wang et al. 2019)."""
 
     def __init__(self, inputs: int, channels: int) -> None:
         super().__init__()
         self.edge = Linear(EDGE_FEATURES, channels)
-        # What depends on the neighbour alone is mapped before it is spread to the edges: k times less to do.
+        # Features of the neighbour are mapped before they are gathered to the edges: k times less work.
         self.neighbor = Linear(inputs, channels, bias=False) if inputs else None
         self.mixed = nn.Sequential(nn.GELU(), Linear(channels, channels), nn.GELU())
         self.out = nn.Sequential(Linear(2 * channels + inputs, channels), nn.LayerNorm(channels))

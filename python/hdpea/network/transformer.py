@@ -16,7 +16,7 @@ from hdpea.network.stem import EdgeStem
 from hdpea.network.voxels import MIDDLE, Voxels
 
 EDGE = 0.4
-"""What the stem counts lengths in, in spacings: about the distance to the 5th neighbour, with 8 points per vertex."""
+"""Unit of the stem's lengths, in spacings: about the distance to the 5th neighbour, with 8 points per vertex."""
 
 FLAT = 0.02
 """Curvature, 1 / spacing, below which the metric does not stretch."""
@@ -25,20 +25,20 @@ OUTPUTS = 5
 """The dimensions of psi."""
 
 PSI_STEP, GATE_STEP = 3.5, 0.25
-"""How far outputs of 1 move psi, in spacings, and the gate as a share of itself; both about as far."""
+"""By how much an output of 1 changes psi, in spacings, and the gate, relatively; the effects are about equal."""
 
 FIRST_OUTPUTS = 0.1
-"""Factor on the first weights of the outputs: what an untrained network adds to the normals is jitter."""
+"""Factor on the initial weights of the outputs: what an untrained network adds to the normals is noise."""
 
 ORIGIN = 0.381966
-"""Where the centre of a cloud lies in its voxel: a symmetric cloud must have no plane of points between voxels."""
+"""Where the centre of a cloud lies in its voxel: no plane of symmetry should lie between voxels."""
 
 
 class PointTransformer(nn.Module):
     """The network: features of points, a U-Net of voxels, psi of points.
 
-    It sees no coordinates but those relative to a neighbour or a voxel, so a crop looks the same wherever it is
-    cut from. Weights start from ``options.seed`` and nothing else.
+    It sees coordinates only relative to a neighbour or a voxel, so its output does not depend on where a crop lies.
+    The initial weights depend on ``options.seed`` alone.
 
     Attributes
     ----------
@@ -85,7 +85,7 @@ class PointTransformer(nn.Module):
         """Return psi (n, 5) float32 of the points, in spacings."""
         voxels, index, features = self._points(clouds)
         x = self._unet(_pooled(self.enter(features), index, len(voxels.cells)), voxels)
-        # Within a voxel psi varies as much as from voxel to voxel: each has an affine map, and points correct it.
+        # psi varies as much within a voxel as between voxels: each predicts an affine map, and points correct it.
         maps = rows(self.affine(x), index).view(-1, OUTPUTS, 4)
         offsets = nn.functional.pad(features[:, :3], (0, 1), value=1)  # (n, 4)
         x = self.leave(torch.cat([rows(x, index), features], dim=1))
@@ -98,10 +98,10 @@ class PointTransformer(nn.Module):
             normals = clouds.normals
             for _ in range(self.options.normal_rounds):
                 normals = averaged(normals, around.members, averaging)
-            # Round a cylinder of radius r, the solution is the normal times sqrt(c r - r^2).
+            # On a cylinder of radius r, the solution is the normal times sqrt(c r - r^2).
             gate = share * (1 + GATE_STEP * self.gate(x)) if self.gate is not None else share
             psi = psi + nn.functional.pad(gate * normals, (0, OUTPUTS - 3))
-        # What the network says varies from point to point more than psi can, and meshing asks for planes that agree.
+        # The output varies from point to point more than psi can, and meshing needs tangent planes that agree.
         for _ in range(self.options.smoothing):
             psi = averaged(psi, around.members, averaging)
         return psi
@@ -114,7 +114,7 @@ class PointTransformer(nn.Module):
         features = [places - cells - 0.5, clouds.normals]
         if self.options.shape:
             size = (clouds.shape.square() @ clouds.shape.new_tensor([1, 1, 1, 2, 2, 2])).sqrt()  # Frobenius norm
-            # psi's gradient goes with the root of the curvature.
+            # The gradient of psi is proportional to the square root of the curvature.
             features += [clouds.shape, clouds.shape / (size + FLAT).sqrt()[:, None]]
         if self.stem is not None:
             features.append(self.stem(clouds.points / EDGE, clouds.normals, clouds.neighbors))
@@ -137,7 +137,7 @@ class PointTransformer(nn.Module):
         return x
 
     def _curves(self) -> list[int]:
-        """Return the curves in the order in which blocks take turns: shuffled in training, else as listed."""
+        """Return the order in which blocks use the curves: shuffled in training, otherwise as listed."""
         if not self.training:
             return list(range(len(CURVES)))
         shuffled: list[int] = torch.randperm(len(CURVES)).tolist()
@@ -155,6 +155,6 @@ def _mapped(inputs: int, outputs: int) -> nn.Sequential:
 
 
 def _pooled(x: Tensor, index: Tensor, count: int) -> Tensor:
-    """Return the mean (count, c) of features (n, c) by the voxel that they lie in."""
+    """Return the mean (count, c) of the features (n, c) in each voxel."""
     sums = torch.zeros(count, x.shape[1], dtype=x.dtype, device=x.device).index_add(0, index, x)
     return sums / torch.bincount(index, minlength=count)[:, None]

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Voxels that hold points: one grid per level of the U-Net, with what attention and convolution need of each."""
+"""Voxels that contain points: one grid per level of the U-Net, with what attention and convolution need."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ class Voxels:
 
     @classmethod
     def holding(cls, cells: Tensor, batch: Tensor) -> tuple[Voxels, Tensor]:
-        """Return the distinct voxels among `cells` (n, 3), and for each of those given which it is (n,).
+        """Return the distinct voxels of `cells` (n, 3), and the voxel (n,) of each cell.
 
         Cells count modulo ``CELLS``, a power of two; as wide gaps are narrowed, hardly any cloud reaches so far.
         """
@@ -44,7 +44,7 @@ class Voxels:
         return cls(torch.stack(axes, dim=1), keys >> (3 * BITS)), index
 
     def coarser(self) -> tuple[Voxels, Tensor]:
-        """Return voxels of twice the side, and for each of these which of those it lies in (v,)."""
+        """Return voxels of twice the side, and which of them (v,) contains each of these."""
         # The middle stays a corner of voxels: MIDDLE is even at every level that is ever used.
         return Voxels.holding(self.cells >> 1, self.batch)
 

@@ -225,7 +225,7 @@ def test_progress_tells_the_phases_and_can_stop() -> None:
 
 
 @METHODS
-def test_a_thinned_cloud_s_tensors_are_carried_over(options: CurvatureOptions, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_tensors_of_thinned_clouds_are_interpolated(options: CurvatureOptions, monkeypatch: pytest.MonkeyPatch) -> None:
     points, normals = clouds.torus(16_000)
     monkeypatch.setattr("hdpea.curvature.estimation.MOST_POINTS", 8_000)
     tensors = estimate_curvature(points, normals, options)

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 from __future__ import annotations
 
+import json
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -10,7 +12,7 @@ from helpers import dataset_standins
 from hdpea.dataset.augmentation import TRANSFORMS
 from hdpea.dataset.build import build_dataset
 from hdpea.dataset.loading import Dataset
-from hdpea.dataset.options import DatasetOptions
+from hdpea.dataset.options import DatasetOptions, GroundTruthOptions
 from hdpea.errors import UnreadableInput, UsageError
 from hdpea.options.settings import filled
 
@@ -28,6 +30,14 @@ def test_samples_are_read_by_name_and_one_after_another(folder: Path) -> None:
     assert len(dataset) == 2
     for name, sample in zip(dataset.names, dataset, strict=True):
         np.testing.assert_array_equal(dataset.read(name).points, sample.points)
+
+
+def test_the_metric_is_that_of_the_manifest(folder: Path) -> None:
+    assert Dataset(folder).metric == GroundTruthOptions().metric
+    manifest = json.loads((folder / "manifest.json").read_text())
+    manifest["options"]["ground_truth"]["metric_scale"] = 20.0
+    (folder / "manifest.json").write_text(json.dumps(manifest))
+    assert Dataset(folder).metric == replace(GroundTruthOptions().metric, scale=20.0)
 
 
 def test_augmentations_are_made_on_loading(folder: Path) -> None:

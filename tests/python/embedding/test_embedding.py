@@ -88,7 +88,7 @@ def test_a_sphere_is_stretched_alike_in_all_directions(options: EmbeddingOptions
     coordinates = embed_surface(surface, 1500, options).coordinates
     south = np.cross(normals, np.cross(normals, [0, 0, 1]))
     south /= np.linalg.norm(south, axis=1, keepdims=True)
-    down, across = (stretches(surface, coordinates, way) for way in (south, np.cross(normals, south)))
+    down, across = (stretches(surface, coordinates, each) for each in (south, np.cross(normals, south)))
     assert np.median(down) == pytest.approx(np.median(across), rel=0.05)
 
 

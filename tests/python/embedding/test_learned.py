@@ -53,22 +53,24 @@ def test_a_redundant_cloud_is_embedded_as_a_thinned_one_would_be() -> None:
     assert np.linalg.norm(dense - thin, axis=1).mean() < 0.2 * spread
 
 
-def test_psi_is_carried_along_its_gradient() -> None:
+def test_psi_is_interpolated_along_its_gradient() -> None:
     points, normals = clouds.sphere(4000)
     psi = 3 * points[:, [0, 1, 2, 0, 1]]
     others, other_normals = clouds.sphere(500, seed=7)
-    carried = Interpolation.of(points, normals, others, other_normals)(psi)
+    interpolated = Interpolation.of(points, normals, others, other_normals)(psi)
     nearest = psi[_core.nearest_neighbors(points, others, 1)[:, 0]]
-    errors, of_nearest = (np.linalg.norm(each - 3 * others[:, [0, 1, 2, 0, 1]], axis=1) for each in (carried, nearest))
+    errors, of_nearest = (
+        np.linalg.norm(each - 3 * others[:, [0, 1, 2, 0, 1]], axis=1) for each in (interpolated, nearest)
+    )
     assert errors.mean() < 0.1 * of_nearest.mean()
 
 
-def test_psi_is_not_carried_through_a_wall() -> None:
+def test_psi_is_not_interpolated_through_a_wall() -> None:
     points, normals = clouds.hollow_sphere(8000, 1.0)
     psi = np.pad(normals, ((0, 0), (0, 2)))
     others, other_normals = points[::7] * 1.001, normals[::7]
-    carried = Interpolation.of(points, normals, others, other_normals)(psi)
-    assert np.linalg.norm(carried - psi[::7], axis=1).max() < 0.2
+    interpolated = Interpolation.of(points, normals, others, other_normals)(psi)
+    assert np.linalg.norm(interpolated - psi[::7], axis=1).max() < 0.2
 
 
 def test_reconstruction_by_a_network_that_knows_nothing_is_still_a_manifold(weights: str) -> None:
