@@ -62,7 +62,7 @@ def test_illegal_values_are_refused(name: str, value: Any) -> None:
 
 @pytest.mark.parametrize("share", [-0.1, 1.1, float("nan")])
 def test_values_have_a_maximum_too(share: float) -> None:
-    with pytest.raises(UsageError, match="share is at"):
+    with pytest.raises(UsageError, match="`share` is"):
         _Shared(share)
 
 

@@ -118,7 +118,7 @@ BREAKS: list[Callable[[Random, NDArray[Any]], Any]] = [
 def _with(array: NDArray[Any], random: Random, values: list[float]) -> NDArray[Any]:
     spoilt_array = array.copy()
     value = values[random.integers(0, len(values))]
-    if array.size and (array.dtype.kind == "f" or np.isfinite(value) and abs(value) <= np.iinfo(array.dtype).max):
+    if array.size and (array.dtype.kind == "f" or (np.isfinite(value) and abs(value) <= np.iinfo(array.dtype).max)):
         spoilt_array.flat[random.integers(0, array.size)] = value
     return spoilt_array
 
