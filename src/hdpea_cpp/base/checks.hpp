@@ -9,9 +9,13 @@
 
 namespace hdpea {
 
+/// No number may be larger: squared distances would overflow, even in R^8.
+constexpr double kLargestNumber = 1e150;
+
 template <class Matrix>
 void require_finite(const Matrix& matrix, const std::string& name) {
-  require(matrix.size() == 0 || matrix.allFinite(), name + " must be finite");
+  // A NaN compares false.
+  require((matrix.array().abs() <= kLargestNumber).all(), name + " must be finite, and at most 1e150 in magnitude");
 }
 
 template <class Matrix>
