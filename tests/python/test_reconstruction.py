@@ -192,7 +192,7 @@ def test_common_options_are_keywords_and_overrule_the_options() -> None:
 
 def test_an_illegal_keyword_is_told_like_any_option() -> None:
     points, normals = cloud_of("sphere")
-    with pytest.raises(UsageError, match="orient is one of"):
+    with pytest.raises(UsageError, match="`orient` is one of"):
         reconstruct(points, normals, orient="up")
     with pytest.raises(UsageError, match="is not a length"):
         reconstruct(points, normals, fill_holes="wide")
