@@ -253,7 +253,7 @@ def test_what_cannot_be_estimated_is_refused() -> None:
         estimate_curvature(clouds.sphere(8)[0])
     with pytest.raises(UsageError, match="`neighbors` is at least 6"):
         EstimationOptions(neighbors=5)
-    with pytest.raises(UsageError, match="method is one of"):
+    with pytest.raises(UsageError, match="`method` is one of"):
         EstimationOptions(method="magic")
     with pytest.raises(UsageError, match="scale 0"):
         CurvatureOptions(embedding=EmbeddingOptions(metric_scale=0))
