@@ -2,7 +2,7 @@
 // Checks of what a public function of the core is given: each takes one pass and throws InvalidArgument.
 #pragma once
 
-#include <cmath>
+#include <sstream>
 #include <string>
 
 #include "hdpea_cpp/base/errors.hpp"
@@ -10,20 +10,16 @@
 
 namespace hdpea {
 
-/// No number may be larger: squared distances would overflow, even in R^8.
-constexpr double kLargestNumber = 1e150;
+/// Largest numbers of which squares, and products of four, can be summed without overflow, even in R^8.
+constexpr double kLargestSquared = 1e150, kLargestToTheFourth = 1e70;
 
 template <class Matrix>
-void require_finite(const Matrix& matrix, const std::string& name) {
+void require_finite(const Matrix& matrix, const std::string& name, double largest = kLargestSquared) {
   // A NaN compares false.
-  require((matrix.array().abs() <= kLargestNumber).all(), name + " must be finite, and at most 1e150 in magnitude");
-}
-
-/// Finite, and of a magnitude at which `power` factors of it can be multiplied.
-template <class Matrix>
-void require_magnitude(const Matrix& matrix, int power, const std::string& name) {
-  const double most = std::pow(1e300, 1.0 / power);
-  require(matrix.size() == 0 || (matrix.array().abs() <= most).all(), name + " must be finite and not as large");
+  if ((matrix.array().abs() <= largest).all()) return;
+  std::ostringstream message;
+  message << name << " must be finite, and at most " << largest << " in magnitude";
+  throw InvalidArgument(message.str());
 }
 
 template <class Matrix>

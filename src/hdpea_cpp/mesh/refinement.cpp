@@ -163,8 +163,8 @@ Points refine_vertices(const PointsRef& vertices, const FacesRef& faces, const P
                        const PointsRef& normals, const RefinementOptions& options, const Progress& progress) {
   require(faces.rows() >= 1 && points.rows() >= 1, "a fit needs at least one face and one point");
   require_mesh(vertices, faces);
-  require_magnitude(vertices, 4, "vertices");
-  require_magnitude(points, 4, "points");
+  require_finite(vertices, "vertices", kLargestToTheFourth);
+  require_finite(points, "points", kLargestToTheFourth);
   require_rows(normals, points.rows(), "normals");
   require_finite(normals, "normals");
   require(options.rounds >= 0 && options.pull > 0 && options.max_gap > 0,

@@ -173,8 +173,8 @@ class Traversal {
 SurfacePoints closest_surface_points(const PointsRef& vertices, const FacesRef& faces, const PointsRef& queries) {
   require(faces.rows() >= 1, "the mesh has no face");
   require_mesh(vertices, faces);
-  require_magnitude(vertices, 4, "vertices");
-  require_magnitude(queries, 4, "queries");
+  require_finite(vertices, "vertices", kLargestToTheFourth);
+  require_finite(queries, "queries", kLargestToTheFourth);
   const Surface surface(vertices, faces);
   const Neighbors hints = nearest_neighbors(surface.centroids(), queries, 1);
   const Index count = queries.rows();

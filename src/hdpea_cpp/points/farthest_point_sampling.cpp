@@ -115,8 +115,7 @@ Eigen::Vector<Index, Eigen::Dynamic> farthest_point_sampling(const CoordinatesRe
                                                              const Progress& progress) {
   require(points.cols() >= 1, "points must have at least one coordinate");
   require(count >= 1 && count <= points.rows(), "the number of samples must lie between 1 and the number of points");
-  require(points.cols() >= 1, "the points have no coordinates");
-  require_magnitude(points, 2, "points");
+  require_finite(points, "points");
   require(first >= 0 && first < points.rows(), "the first sample must be one of the points");
   FarthestTree tree(points);
   Eigen::Vector<Index, Eigen::Dynamic> samples(count);

@@ -80,7 +80,7 @@ void search(const Tree& tree, Index count, const double* query, Index excluded, 
 }
 
 void check(const CoordinatesRef& points, Index k) {
-  require_magnitude(points, 2, "points");
+  require_finite(points, "points");
   require(k >= 1, "the number of neighbours must be at least 1");
   require(points.rows() >= 1 && points.cols() >= 1, "nearest_neighbors needs at least one point");
 }
@@ -90,7 +90,7 @@ void check(const CoordinatesRef& points, Index k) {
 Neighbors nearest_neighbors(const CoordinatesRef& points, const CoordinatesRef& queries, Index k) {
   check(points, k);
   require(points.cols() == queries.cols(), "points and queries must have the same dimension");
-  require_magnitude(queries, 2, "queries");
+  require_finite(queries, "queries");
   const Adaptor adaptor{points};
   const Tree tree(static_cast<int>(points.cols()), adaptor);
   Neighbors neighbors(queries.rows(), k);

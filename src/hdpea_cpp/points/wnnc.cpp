@@ -43,7 +43,7 @@ void approach_half(const WindingTree& tree, double width, Points& moments) {
 Points wnnc_normals(const PointsRef& points, const WnncOptions& options, const Progress& progress) {
   const Index n = points.rows();
   require(n >= 1, "wnnc_normals needs at least one point");
-  require_magnitude(points, 4, "points");
+  require_finite(points, "points", kLargestToTheFourth);
   require(options.iterations >= 1 && options.first_width > 0 && options.spacings_wide > 0 &&
               std::isfinite(options.spacings_wide),
           "iterations and widths must be positive");
