@@ -15,6 +15,7 @@ from hdpea import _core, errors
         (errors.CannotReconstruct, 4),
         (errors.QualityMissed, 5),
         (errors.Interrupted, 130),
+        (errors.Terminated, 143),
     ],
 )
 def test_each_kind_has_its_exit_code(kind: type[errors.HdpeaError], exit_code: int) -> None:
@@ -33,6 +34,8 @@ def test_each_kind_has_its_exit_code(kind: type[errors.HdpeaError], exit_code: i
 def test_errors_of_the_core_are_translated(raised: Exception, translated: type[errors.HdpeaError]) -> None:
     with pytest.raises(translated) as caught, errors.core_errors_translated():
         raise raised
+    assert caught.value.message.endswith(".")
+    assert caught.value.hint or translated is errors.Interrupted
     assert caught.value.__cause__ is raised
 
 

@@ -23,7 +23,7 @@ Examples:
 
 \b
 Exit codes: 0 ok, 1 internal error, 2 usage, 3 unreadable input,
-4 cannot reconstruct, 5 quality target missed, 130 interrupted.
+4 cannot reconstruct, 5 quality target missed, 130 interrupted, 143 terminated.
 """
 
 

@@ -13,7 +13,8 @@ void register_embedding(nb::module_& module) {
       .def_rw("direction1", &Curvature::direction1, "(n, 3) float64 unit tangents");
   module.def("estimate_curvature", &hdpea::estimate_curvature, "points"_a, "normals"_a, "neighbors"_a, "radius"_a,
              ReleaseGil(), "Fit the shape operator to the change of the normals within a radius.");
-  nb::class_<EmbeddingOptions>(module, "EmbeddingOptions", "How the embedding is solved for; lengths as the points'.")
+  nb::class_<EmbeddingOptions>(module, "EmbeddingOptions",
+                               "How the embedding is solved for; lengths in the unit of the points.")
       .def(nb::init<>())
       .def_rw("metric_scale", &EmbeddingOptions::metric_scale)
       .def_rw("max_stretch", &EmbeddingOptions::max_stretch)

@@ -10,7 +10,8 @@ void register_manifold_extraction(nb::module_& module) {
   nb::class_<ExtractionOptions>(module, "ExtractionOptions", "What is refused; angles in degrees.")
       .def(nb::init<>())
       .def_rw("min_component_faces", &ExtractionOptions::min_component_faces);
-  nb::class_<ExtractionCounts>(module, "ExtractionCounts", "What became of the candidates.")
+  nb::class_<ExtractionCounts>(module, "ExtractionCounts",
+                               "How many candidates were kept, and why the others were refused.")
       .def_ro("t3", &ExtractionCounts::t3)
       .def_ro("t12", &ExtractionCounts::t12)
       .def_ro("t3_kept", &ExtractionCounts::t3_kept)

@@ -14,8 +14,9 @@ void register_mesh_check(nb::module_& module) {
       .def_ro("edges", &MeshCheck::edges)
       .def_ro("boundary_edges", &MeshCheck::boundary_edges, "Edges of one face.")
       .def_ro("nonmanifold_edges", &MeshCheck::nonmanifold_edges, "Edges of three faces or more.")
-      .def_ro("nonmanifold_vertices", &MeshCheck::nonmanifold_vertices, "Vertices whose link is no path and no cycle.")
-      .def_ro("inconsistent_edges", &MeshCheck::inconsistent_edges, "Edges both faces run through in one direction.")
+      .def_ro("nonmanifold_vertices", &MeshCheck::nonmanifold_vertices,
+              "Vertices whose link is neither a path nor a cycle.")
+      .def_ro("inconsistent_edges", &MeshCheck::inconsistent_edges, "Edges both faces traverse in one direction.")
       .def_ro("degenerate_faces", &MeshCheck::degenerate_faces, "Faces that repeat an index or have no area.")
       .def_ro("repeated_index_faces", &MeshCheck::repeated_index_faces)
       .def_ro("duplicate_faces", &MeshCheck::duplicate_faces, "Faces with the corners of an earlier one.")

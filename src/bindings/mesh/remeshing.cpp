@@ -6,7 +6,8 @@
 void register_remeshing(nb::module_& module) {
   using hdpea::RemeshingOptions;
   using hdpea::TriangleMesh;
-  nb::class_<RemeshingOptions>(module, "RemeshingOptions", "How a mesh is remeshed; lengths as the vertices'.")
+  nb::class_<RemeshingOptions>(module, "RemeshingOptions",
+                               "How a mesh is remeshed; lengths in the unit of the vertices.")
       .def(nb::init<>())
       .def_rw("edge_length", &RemeshingOptions::edge_length);
   nb::class_<TriangleMesh>(module, "TriangleMesh", "Vertices and faces.")

@@ -5,7 +5,7 @@
 
 void register_moving_least_squares(nb::module_& module) {
   using hdpea::SurfacePlaces;
-  nb::class_<SurfacePlaces>(module, "SurfacePlaces", "Places on a surface that points show.")
+  nb::class_<SurfacePlaces>(module, "SurfacePlaces", "Places on the surface that points sample.")
       .def_ro("points", &SurfacePlaces::points, "(n, 3) float64")
       .def_ro("normals", &SurfacePlaces::normals, "(n, 3) float64, of the fitted surface");
   // The options are for the core's own tests: nobody sets them from Python.

@@ -10,9 +10,13 @@
 
 namespace hdpea {
 
+/// No number may be larger: squared distances would overflow, even in R^8.
+constexpr double kLargestNumber = 1e150;
+
 template <class Matrix>
 void require_finite(const Matrix& matrix, const std::string& name) {
-  require(matrix.size() == 0 || matrix.allFinite(), name + " must be finite");
+  // A NaN compares false.
+  require((matrix.array().abs() <= kLargestNumber).all(), name + " must be finite, and at most 1e150 in magnitude");
 }
 
 /// Finite, and of a magnitude at which `power` factors of it can be multiplied.

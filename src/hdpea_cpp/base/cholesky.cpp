@@ -6,7 +6,10 @@
 namespace hdpea {
 
 Cholesky::Cholesky(const SparseMatrix& matrix) : factorization_(matrix), permuted_(matrix.rows(), 5) {
-  if (factorization_.info() != Eigen::Success) throw CannotReconstruct("the sparse system is not positive definite");
+  if (factorization_.info() != Eigen::Success) {
+    throw CannotReconstruct(
+        "the sparse system is not positive definite: a length is out of proportion to the spacing of the points");
+  }
 }
 
 void Cholesky::solve_in_place(Columns& columns) const {

@@ -113,7 +113,7 @@ class Elements {
     const Eigen::Vector3d ab = points.row(triangles_(t, 1)).transpose() - a;
     const Eigen::Vector3d ac = points.row(triangles_(t, 2)).transpose() - a;
     const double twice_area = ab.cross(ac).norm();
-    // A sliver has no stable frame and (nearly) no area: it contributes nothing.
+    // A sliver has no well-defined frame and (nearly) no area: it contributes nothing.
     if (twice_area <= 1e-10 * (ab.squaredNorm() + ac.squaredNorm())) {
       return {Eigen::Matrix<double, 2, 3>::Zero(), Eigen::Matrix2d::Zero(), 0};
     }
@@ -157,7 +157,7 @@ Psi initial_psi(const PointsRef& normals) {
   psi.leftCols<3>() = 0.2 * normals;
   for (Index i = 0; i < psi.rows(); ++i) {
     for (Index column = 3; column < 5; ++column) {
-      // Weyl sequences: as good as noise here, and the same everywhere.
+      // Weyl sequences: they serve as noise, and are the same on every machine.
       const double step = column == 3 ? 0.7548776662466927 : 0.5698402909980532;
       const double unit = std::fmod(static_cast<double>(i + 1) * step, 1.0);
       psi(i, column) = 1e-3 * (2 * unit - 1);
@@ -168,8 +168,8 @@ Psi initial_psi(const PointsRef& normals) {
 
 /// Holds the mean psi of every connected piece where it was at first.
 ///
-/// The metric does not see a piece's translation, and the anchor holds it loosely: without this, rounding
-/// errors a millionfold would move it, and a shifted cloud would get another mesh.
+/// The metric does not depend on a piece's translation, and the anchor holds it weakly: without this, amplified
+/// rounding errors would move it, and a shifted cloud would get another mesh.
 class PinnedMeans {
  public:
   PinnedMeans(const FacesRef& triangles, const Eigen::VectorXd& areas, const Psi& psi)
@@ -242,6 +242,7 @@ Coordinates solve_embedding(const PointsRef& points, const PointsRef& normals, c
   const double mean_area = std::max(elements.areas().mean(), 1e-300);
   const Eigen::VectorXd areas = elements.areas().cwiseMax(1e-3 * mean_area);
   const double anchor = 1e-3 / (points.colwise().maxCoeff() - points.colwise().minCoeff()).squaredNorm();
+  if (!std::isfinite(anchor)) throw CannotReconstruct("the points lie in one place");
   const SparseMatrix laplacian = elements.laplacian();
   const double squared_length = options.bending_length * options.bending_length;
   const Cholesky bending(squared_length * laplacian + diagonal(areas));
@@ -262,6 +263,10 @@ Coordinates solve_embedding(const PointsRef& points, const PointsRef& normals, c
     const double momentum = static_cast<double>(iteration) / static_cast<double>(iteration + 3);
     ahead = next + momentum * (next - psi);
     psi.swap(next);
+  }
+  if (!psi.allFinite()) {
+    throw CannotReconstruct(
+        "the embedding does not converge: a length is out of proportion to the spacing of the points");
   }
   report(progress, 1);
   return psi;

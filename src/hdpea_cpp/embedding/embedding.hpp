@@ -34,9 +34,10 @@ struct EmbeddingOptions {
 /// @param triangles  (t, 3) a mesh, or a soup that covers the surface
 /// @param weights    (t) 1 for a mesh; for a soup the share of each triangle, so that areas are counted once
 /// @param initial    (n, 5) psi to begin at, in any gauge, instead of 0.2 n: the nearer to a solution, the fewer
-///                   iterations it takes
+///                   iterations are needed
 /// @returns (n, 5)
-/// @throws InvalidArgument on a broken contract; Cancelled
+/// @throws InvalidArgument on a broken contract; CannotReconstruct if the points lie in one place or lengths
+///         are out of all proportion to them; Cancelled
 Coordinates solve_embedding(const PointsRef& points, const PointsRef& normals, const Curvature& curvature,
                             const FacesRef& triangles, const Eigen::Ref<const Eigen::VectorXd>& weights,
                             const EmbeddingOptions& options, const Progress& progress = {},

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// For sources that work on a mesh with CGAL; no header of the core's includes it.
+// For sources that work on a mesh with CGAL; no other header of the core includes it.
 #pragma once
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
@@ -17,7 +17,7 @@ using SurfaceMesh = CGAL::Surface_mesh<Kernel::Point_3>;
 /// A pinched vertex, of which a Surface_mesh has none, becomes a vertex for each of its fans.
 SurfaceMesh to_cgal(const PointsRef& vertices, const FacesRef& faces);
 
-/// Vertices and faces of a mesh in the order it keeps them; removed ones are gone from it afterwards.
+/// Vertices and faces of a mesh in its own order; removed ones are purged from it.
 TriangleMesh from_cgal(SurfaceMesh& mesh);
 
 }  // namespace hdpea

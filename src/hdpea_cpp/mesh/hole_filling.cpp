@@ -19,11 +19,11 @@
 namespace hdpea {
 namespace {
 
-// CGAL searches a Delaunay triangulation first, which may walk in circles unless predicates are exact.
+// CGAL tries a Delaunay triangulation first, whose point location may not terminate unless predicates are exact.
 using Point = CGAL::Exact_predicates_inexact_constructions_kernel::Point_3;
 using Loop = std::vector<Index>;
 
-// A hole of so few edges may fold back, unless its patch is a good part of the whole piece: that is its border.
+// A hole of so few edges may fold back, unless its patch is a good part of its whole piece: then it is the border.
 constexpr std::size_t kFewEdges = 8;
 constexpr double kGoodPart = 0.25;
 // Where a Delaunay triangulation holds no patch, CGAL tries all triangulations, in time that grows with the cube of the

@@ -75,9 +75,9 @@ class Extractor {
   bool folds_back(const Triangle& triangle) const;
   bool touches_enough(const Triangle& triangle, bool bridging);
   bool joins_pieces(Index face, Index vertex);
-  /// Counts what is refused for good; returns whether the triangle went in.
+  /// Counts what is refused for good; returns whether the triangle was inserted.
   bool try_insert(const Candidate& candidate);
-  /// Inserts what touches the mesh by enough edges, until nothing more does; returns what did not enter.
+  /// Inserts what shares enough edges with the mesh, until nothing more does; returns what was not inserted.
   std::vector<Candidate> sweep_t12(std::vector<Candidate> waiting, bool bridging);
 
   const CoordinatesRef& coordinates_;
@@ -125,8 +125,8 @@ bool Extractor::touches_enough(const Triangle& triangle, bool bridging) {
   return agrees_with_points(triangle, least_lone_cosine_);
 }
 
-/// Whether no face of the vertex is in the same edge-connected piece as the face, and one side is a fragment: whole
-/// parts that come near each other stay apart.
+/// Whether no face of the vertex is in the same edge-connected piece as the face, and one side is a fragment: large
+/// parts that are near each other stay apart.
 bool Extractor::joins_pieces(Index face, Index vertex) {
   const Index piece = mesh_.piece_of(face).first;
   const std::vector<Index>& others = mesh_.faces_of(vertex);
@@ -191,7 +191,7 @@ void Extractor::insert_candidates(const Candidates& candidates) {
   counts_.t3 = static_cast<Index>(t3.size());
   counts_.t12 = static_cast<Index>(t12.size());
   for (const Candidate& candidate : t3) counts_.t3_kept += try_insert(candidate);
-  // Bridges come last: on thin parts they join what would stay fragments; elsewhere the surface is complete by then.
+  // Bridges come last: on thin parts they join fragments, elsewhere the surface is complete by then.
   std::vector<Candidate> loose = sweep_t12(std::move(t12), false);
   loose = sweep_t12(std::move(loose), true);
   counts_.refused_loose = static_cast<Index>(loose.size());
@@ -200,14 +200,14 @@ void Extractor::insert_candidates(const Candidates& candidates) {
 ExtractedMesh Extractor::finish() {
   const Index face_count = static_cast<Index>(mesh_.triangles().size());
   std::vector<Index> size(static_cast<std::size_t>(face_count), 0);
-  std::vector<double> outward(size.size(), 0.0);  // how well the representative's orientation suits the normals
+  std::vector<double> outward(size.size(), 0.0);  // how well the representative's orientation agrees with the normals
   for (Index f = 0; f < face_count; ++f) {
     const auto [representative, flipped] = mesh_.piece_of(f);
     const double agreement = outwardness(mesh_.triangles()[f]);
     outward[representative] += flipped ? -agreement : agreement;
     ++size[representative];
   }
-  // A mesh of few faces is no reason to drop all of it: the largest piece stays.
+  // Even if all pieces are small, the largest one stays.
   const Index largest = face_count == 0 ? 0 : *std::max_element(size.begin(), size.end());
   const Index least = std::min(options_.min_component_faces, largest);
   std::vector<Triangle> kept;
@@ -222,7 +222,7 @@ ExtractedMesh Extractor::finish() {
     if (flipped != (outward[representative] < 0)) std::swap(triangle[1], triangle[2]);
     kept.push_back(triangle);
   }
-  // They entered in the order of their radii, which rounding (a cloud in other units) may change.
+  // They were inserted in the order of their radii, which rounding (a cloud in other units) may change.
   std::sort(kept.begin(), kept.end());
   ExtractedMesh extracted;
   counts_.split_vertices = split_pinched_vertices(kept, coordinates_.rows(), extracted.faces, extracted.sources);

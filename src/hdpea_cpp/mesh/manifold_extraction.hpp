@@ -16,17 +16,17 @@ struct ExtractionOptions {
   Index min_component_faces = 16;  ///< smaller connected pieces are dropped, but never the largest
 };
 
-/// What became of the candidates.
+/// How many candidates were kept, and why the others were refused.
 struct ExtractionCounts {
   Index t3 = 0, t12 = 0;            ///< candidates
-  Index t3_kept = 0, t12_kept = 0;  ///< entered the mesh
+  Index t3_kept = 0, t12_kept = 0;  ///< those in the mesh
   Index refused_edge = 0;           ///< an edge would get a third face
   Index refused_link = 0;           ///< a vertex link would stop being a path or a cycle
   Index refused_orientation = 0;    ///< would make a Moebius strip
   Index refused_fold = 0;           ///< folds back on its neighbour
   Index refused_normal = 0;         ///< crosses the surface: its plane disagrees with the points'
   Index refused_size = 0;           ///< spans more than the disks allow
-  Index refused_loose = 0;          ///< T12 that never touched the mesh by enough edges
+  Index refused_loose = 0;          ///< T12 that never shared enough edges with the mesh
   Index dropped_components = 0, dropped_faces = 0;
   Index split_vertices = 0;  ///< pinched vertices given a copy of their own for each fan
 };
@@ -41,7 +41,7 @@ struct ExtractedMesh {
 ///
 /// T3 first, then T12, best first: seen twice before once, then by circumradius in R^d. A T12 triangle must
 /// share two edges with the mesh, or one and bring a vertex that has no face yet; sweeps repeat until none
-/// enters, and then once more with those that share one edge and reach a vertex of another piece, one of the two
+/// is inserted, and then once more with those that share one edge and reach a vertex of another piece, one of the two
 /// being small: on parts so thin that few cells agree, they join the fragments. Then small components are dropped and
 /// pinched vertices split. Borders stay open.
 ///

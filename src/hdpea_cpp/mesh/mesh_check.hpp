@@ -18,7 +18,7 @@ struct MeshCheck {
   Index nonmanifold_edges = 0;
   /// Vertices whose link is not one path or one cycle; the ends of nonmanifold edges are among them.
   Index nonmanifold_vertices = 0;
-  /// Edges that both their faces run through in the same direction.
+  /// Edges that both their faces traverse in the same direction.
   Index inconsistent_edges = 0;
   /// Faces that repeat an index, or whose corners lie exactly on a line.
   Index degenerate_faces = 0;

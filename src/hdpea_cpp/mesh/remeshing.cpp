@@ -3,6 +3,7 @@
 
 #include <CGAL/Polygon_mesh_processing/detect_features.h>
 #include <CGAL/Polygon_mesh_processing/remesh.h>
+#include <CGAL/Polygon_mesh_processing/repair.h>
 #include <CGAL/Polygon_mesh_processing/shape_predicates.h>
 #include <CGAL/boost/graph/Euler_operations.h>
 
@@ -12,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "hdpea_cpp/base/area_vector.hpp"
 #include "hdpea_cpp/base/checks.hpp"
 #include "hdpea_cpp/base/errors.hpp"
 #include "hdpea_cpp/mesh/cgal_mesh.hpp"
@@ -22,7 +24,10 @@ namespace {
 namespace pmp = CGAL::Polygon_mesh_processing;
 using Point = Kernel::Point_3;
 
-/// Of the edge length that is wanted: the ends of a shorter edge are told apart by nothing but rounding.
+/// A Surface_mesh has 32 bits for its half-edges, three to a face.
+constexpr double kMostFaces = 1e9;
+
+/// Relative to the requested edge length: the ends of a shorter edge differ by rounding errors only.
 constexpr double kNoLength = 1e-9;
 
 /// Whether no two faces run through an edge in the same direction, and none repeats a vertex. Of three faces at an
@@ -37,14 +42,25 @@ bool consistently_oriented(const FacesRef& faces) {
          std::none_of(edges.begin(), edges.end(), [](const auto& edge) { return edge.first == edge.second; });
 }
 
+/// About how many triangles of an edge length cover the faces; needles are cut into as many pieces as they are long.
+double expected_faces(const PointsRef& vertices, const FacesRef& faces, double edge_length) {
+  double count = 0;
+  for (Index f = 0; f < faces.rows(); ++f) {
+    const Eigen::RowVector3d a = vertices.row(faces(f, 0)) / edge_length, b = vertices.row(faces(f, 1)) / edge_length,
+                             c = vertices.row(faces(f, 2)) / edge_length;
+    count += area_vector(a, b, c).norm() + (b - a).norm() + (c - b).norm() + (a - c).norm();
+  }
+  return count;
+}
+
 bool has_no_length(const SurfaceMesh& mesh, SurfaceMesh::Edge_index e, double edge_length) {
   const auto h = mesh.halfedge(e);
   const double least = kNoLength * edge_length;
   return CGAL::squared_distance(mesh.point(mesh.source(h)), mesh.point(mesh.target(h))) < least * least;
 }
 
-/// Joins vertices that only rounding tells apart. The needles between them have any normal, so they would stay, as
-/// sharp ones, and be split until a vertex has none but faces without area: there CGAL 5.5 crashes (its issue 7345).
+/// Joins vertices that differ by rounding errors only. The needles between them have arbitrary normals, so their edges
+/// would be kept as sharp and split until a vertex has only faces without area: there CGAL 5.5 crashes (issue 7345).
 void collapse_edges_without_length(SurfaceMesh& mesh, double edge_length) {
   for (const auto e : mesh.edges()) {
     if (has_no_length(mesh, e, edge_length) && CGAL::Euler::does_satisfy_link_condition(e, mesh)) {
@@ -83,10 +99,15 @@ void unmark_degenerate_faces(const SurfaceMesh& mesh, SurfaceMesh::Property_map<
 
 TriangleMesh remesh_isotropically(const PointsRef& vertices, const FacesRef& faces, const RemeshingOptions& options) {
   require(options.edge_length > 0 && std::isfinite(options.edge_length), "edge_length must be positive and finite");
+  require(std::isfinite(options.sharp_angle) && options.iterations >= 0,
+          "sharp_angle must be finite, iterations 0 or more");
   require(faces.rows() >= 1, "remeshing needs at least one face");
   require_mesh(vertices, faces);
   require(consistently_oriented(faces), "remeshing needs at most two faces to an edge, of one orientation");
+  require(expected_faces(vertices, faces, options.edge_length) <= kMostFaces,
+          "edge_length is too short: more than 1e9 triangles would be made");
   SurfaceMesh mesh = to_cgal(vertices, faces);
+  pmp::remove_isolated_vertices(mesh);
   collapse_edges_without_length(mesh, options.edge_length);
   auto sharp = mesh.add_property_map<SurfaceMesh::Edge_index, bool>("e:sharp", false).first;
   pmp::detect_sharp_edges(mesh, options.sharp_angle, sharp);

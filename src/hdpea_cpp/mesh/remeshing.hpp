@@ -15,8 +15,8 @@ struct RemeshingOptions {
 /// Covers the same surface with near-isotropic triangles, by CGAL (Botsch & Kobbelt 2004).
 ///
 /// Sharp edges and borders stay where they are, everything else is relaxed and projected back on the given surface.
-/// Faces may be needles. Vertices where sheets touch (pinched ones) are split, vertices that only rounding tells apart
-/// are joined.
+/// Faces may be needles. Vertices where sheets touch (pinched ones) are split, vertices that differ by rounding errors
+/// only are joined, vertices without a face left out.
 ///
 /// @param vertices  (n, 3), finite
 /// @param faces     (f, 3) indices into vertices, consistently oriented, at most two to an edge

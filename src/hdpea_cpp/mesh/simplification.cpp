@@ -25,12 +25,12 @@ namespace sms = CGAL::Surface_mesh_simplification;
 using Point = Kernel::Point_3;
 using Vertex = SurfaceMesh::Vertex_index;
 
-// Where planes leave a direction open, the middle of the edge will do.
+// Where the planes leave a direction undetermined, the vertex goes to the middle of the edge.
 constexpr double kPull = 1e-3;
 
 constexpr Index kCollapsesPerReport = 100;
 
-/// The part of the given surface that a vertex represents.
+/// The part of the given surface that a vertex stands for.
 struct Part {
   Eigen::Matrix4d quadric = Eigen::Matrix4d::Zero();  ///< of the planes of its faces, weighted by their area
   double area = 0;                                    ///< in R^d
@@ -42,7 +42,7 @@ Part joined(const Part& a, const Part& b) {
   return {a.quadric + b.quadric, area, a.centroid + share * (b.centroid - a.centroid)};
 }
 
-/// What the variance of two parts, times their area, grows by when they become one.
+/// The growth of the variance of two parts, times their area, when they are joined.
 double variance_growth(const Part& a, const Part& b) {
   const double area = a.area + b.area;
   return area > 0 ? a.area * b.area / area * (a.centroid - b.centroid).squaredNorm() : 0;
@@ -136,7 +136,7 @@ class LeastLoss {
   double evenness_;
 };
 
-/// Stops CGAL when the budget is met; tells how far it is from there.
+/// Stops CGAL when the budget is met; reports the progress.
 class WithinBudget {
  public:
   WithinBudget(const MeshBudget& budget, const SurfaceMesh& mesh, const Progress& progress)
@@ -171,7 +171,7 @@ SimplifiedMesh simplify_mesh(const PointsRef& vertices, const CoordinatesRef& co
                              const MeshBudget& budget, const SimplificationOptions& options, const Progress& progress) {
   require_rows(coordinates, vertices.rows(), "coordinates");
   require_finite(coordinates, "coordinates");
-  require(budget.vertices >= 0 && budget.faces >= 0, "a budget must be 0 or more");
+  require(budget.vertices >= 0 && budget.faces >= 0, "the budget must be 0 or more vertices and faces");
   require(options.evenness >= 0 && options.border >= 0, "evenness and border must be 0 or more");
   const MeshCheck check = check_mesh(vertices, faces);
   require(check.manifold() && check.oriented(), "simplification needs a manifold, oriented mesh");

@@ -15,7 +15,7 @@ struct MeshBudget {
 
 /// What an edge collapse costs.
 struct SimplificationOptions {
-  double evenness = 1e-3;  ///< what a squared distance in R^d costs, where one in R^3 costs 1
+  double evenness = 1e-3;  ///< cost of a squared distance in R^d, where one in R^3 costs 1
   double border = 1;       ///< weight of the planes that hold borders in place, where those of faces have 1
 };
 
@@ -29,9 +29,9 @@ struct SimplifiedMesh {
 ///
 /// A vertex represents the part of the given surface that has been collapsed into it. A collapse costs the squared
 /// distance of the new vertex from the planes of its part (area-weighted quadrics; Garland and Heckbert 1997), which
-/// keeps creases, and, weighted, what the variance of the part under the metric of R^d grows by (Ward 1963): that is
-/// the energy that evenly spread particles have least of, and keeps triangles aligned with curvature. The topology
-/// stays; a collapse that would flip a face is not made, so a budget may be out of reach.
+/// keeps creases, plus a weight times the growth of the part's variance under the metric of R^d (Ward 1963): evenly
+/// spread particles minimise this energy, and it keeps triangles aligned with curvature. The topology stays; a
+/// collapse that would flip a face is not made, so a budget may be out of reach.
 ///
 /// @param vertices     (v, 3)
 /// @param coordinates  (v, d) of the vertices in the embedding

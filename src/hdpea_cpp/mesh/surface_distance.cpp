@@ -87,7 +87,7 @@ class ClosestOfTriangle {
     offer(weights);
   }
 
-  /// The edges are offered as well, so a needle whose weights drown in rounding does no harm.
+  /// The edges are offered as well, so a needle whose weights are lost to rounding does no harm.
   void offer_inside() {
     const Vector ab = corners_[1] - corners_[0], ac = corners_[2] - corners_[0], ap = query_ - corners_[0];
     const Vector normal = ab.cross(ac);

@@ -113,6 +113,7 @@ class FarthestTree {
 
 Eigen::Vector<Index, Eigen::Dynamic> farthest_point_sampling(const CoordinatesRef& points, Index count, Index first,
                                                              const Progress& progress) {
+  require(points.cols() >= 1, "points must have at least one coordinate");
   require(count >= 1 && count <= points.rows(), "the number of samples must lie between 1 and the number of points");
   require(points.cols() >= 1, "the points have no coordinates");
   require_magnitude(points, 2, "points");

@@ -27,6 +27,7 @@ constexpr std::size_t kDegree = 2;
 constexpr std::size_t kCoefficients = 6;
 constexpr std::size_t kGrowth = 3;
 constexpr double kLargestCondition = 1e8;  // beyond, the points lie on a line as far as doubles can tell
+constexpr double kLeastExtent = 1e-100;    // squares of what is smaller vanish
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
 struct Jet {
@@ -66,7 +67,18 @@ double error_of(const MongeForm& form, const Patch& patch, std::size_t count) {
   return std::sqrt(squared_residuals / freedom / squared_mixed);
 }
 
+/// The largest coordinate of the first `count` points, relative to the point itself.
+double extent_of(const Patch& patch, std::size_t count) {
+  double extent = 0;
+  for (std::size_t p = 0; p < count; ++p) {
+    for (int axis = 0; axis < 3; ++axis) extent = std::max(extent, std::abs(patch[p][axis]));
+  }
+  return extent;
+}
+
 std::optional<Jet> fit_patch(const Patch& patch, std::size_t count) {
+  // CGAL divides by the mean distance, and Eigen's decomposition of the NaN of points in one place reads anywhere.
+  if (extent_of(patch, count) < kLeastExtent) return std::nullopt;
   Fitting fitting;
   const MongeForm form = fitting(patch.begin(), patch.begin() + static_cast<std::ptrdiff_t>(count), kDegree, kDegree);
   if (!(fitting.condition_number() < kLargestCondition)) return std::nullopt;

@@ -11,7 +11,7 @@ struct MovingLeastSquaresOptions {
   double agreement = 0.5;  ///< distance of unit normals at which a weight has fallen to 1 / e: edges stay
 };
 
-/// Places on a surface that points show.
+/// Places on the surface that points sample.
 struct SurfacePlaces {
   Points points;   ///< (n, 3)
   Points normals;  ///< (n, 3) unit, of the fitted surface, on the side of the given normals

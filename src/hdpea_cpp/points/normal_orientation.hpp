@@ -21,9 +21,9 @@ Points orient_normals(const PointsRef& points, const PointsRef& normals, const N
 /// Lets the points of one sheet vote on its signs: each piece of the surface takes the sides that most of its normals
 /// have on entry.
 ///
-/// A piece is what hangs together by edges along which normals are carried, as above, to within the angle of
-/// `least_cosine` of each other: across creases, but not between sheets that the points do not resolve, nor far
-/// through noise. Of equal votes, the side of the piece's first point wins.
+/// A piece is a set of points connected by edges along which normals, carried as above, agree to within the angle of
+/// `least_cosine`: it extends across creases, but not between sheets that the points do not resolve, nor far
+/// through noise. Ties are decided by the side of the piece's first point.
 ///
 /// @param points     (n, 3)
 /// @param normals    (n, 3) unit, mostly oriented
@@ -33,7 +33,7 @@ Points agree_on_signs(const PointsRef& points, const PointsRef& normals, const N
 
 /// Share of neighbours whose signs agree by the same criterion: 1 for oriented normals, 0.5 for random signs.
 ///
-/// Pairs whose reflected normals are not nearly parallel (|cos| <= 0.8) say nothing and are left out; 1 if
+/// Pairs whose reflected normals are not nearly parallel (|cos| <= 0.8) are inconclusive and left out; 1 if
 /// there are no others.
 double orientation_consistency(const PointsRef& points, const PointsRef& normals, const NeighborsRef& neighbors);
 

@@ -18,9 +18,9 @@ using Vector = Eigen::RowVector3d;
 /// A smaller patch straddles a crease less often; the last fit uses all neighbours again.
 constexpr double patch_share = 0.625;
 constexpr int rounds = 3;
-/// A neighbour's plane must fit by this factor better, in squared distance, before a point gives up its own.
+/// A neighbour's plane must fit better by this factor, in squared distance, to replace the point's own.
 constexpr double own_advantage = 0.25;
-/// Cosine of the angle below which another plane is no other plane: 10 degrees.
+/// Cosine of the angle below which two planes count as the same: 10 degrees.
 constexpr double same_plane = 0.985;
 /// Exact planes have no residual: neighbours count as on the plane within this share of the patch's radius.
 constexpr double least_residual = 0.02;

@@ -16,7 +16,7 @@ namespace {
 
 constexpr Index kAround = 16;  // neighbours that should surround a point inside its sheet
 
-/// Whether the point's own sheet leaves a gap of at least `gap` radians around it.
+/// Whether the point's own sheet leaves a gap of at least `rim_gap` degrees around it.
 bool is_rim(const PointsRef& points, const PointsRef& normals, const NeighborsRef& neighbors, Index i,
             const SheetOptions& options, std::vector<double>& angles) {
   const Eigen::Vector3d normal = normals.row(i).transpose();

@@ -8,7 +8,7 @@ namespace hdpea {
 /// When two nearby points lie on the same sheet of the surface.
 struct SheetOptions {
   double min_cosine = -0.2;   ///< least n . n' of neighbours on one sheet: a right angle is still one sheet
-  double max_slope = 0.7;     ///< sine of the steepest way to a neighbour farther off than rim_distance
+  double max_slope = 0.7;     ///< sine of the steepest slope to a neighbour farther away than rim_distance
   double rim_gap = 150;       ///< degrees without a neighbour that make a point the rim of its sheet
   double rim_distance = 1.5;  ///< sheets meet at their rims within this many distances of the 3rd neighbour
 };

@@ -16,7 +16,7 @@ namespace {
 
 /// Points of a leaf: they share a list of sources, and fill the lanes of the processor.
 constexpr int leaf_size = 16;
-/// Largest radius of a cell that is seen as one, in its distances from the leaf.
+/// Largest radius of a cell that is summed as one, relative to its distance from the leaf.
 constexpr double opening = 0.6;
 
 using Lanes = Eigen::Array<float, leaf_size, 1>;
@@ -60,7 +60,7 @@ WindingTree::WindingTree(const PointsRef& points) : order_(static_cast<std::size
   find_interactions();
 }
 
-/// Halves the points across their longest extent; which half a point falls into is a matter of positions alone.
+/// Halves the points across their longest extent; which half a point falls into depends on positions alone.
 Index WindingTree::build(Index begin, Index end) {
   const auto first = order_.begin() + begin, last = order_.begin() + end;
   const Points members = points_(std::vector<Index>(first, last), Eigen::all);

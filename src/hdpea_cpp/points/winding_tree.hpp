@@ -12,11 +12,12 @@ namespace hdpea {
 /// Points y_j with moments m_j (area times outward normal) have, in x, the smoothed winding number
 ///   chi(x) = sum_j m_j . (y_j - x) / (4 pi (|y_j - x|^2 + width^2)^(3/2)),
 /// about 1 inside, 0 outside and 1/2 on the surface. Far points are summed as one at the middle of their cell, with
-/// their first moment about it. The tree, and which of its cells a leaf sees as one, are found once for all sums.
+/// their first moment about it. The tree, and which of its cells are summed as one for a leaf, are found once for all
+/// sums.
 ///
 /// Sums are in single precision and in an order that the positions determine, so they depend neither on the threads
-/// nor on the order of the points. Relative to its root mean square, a sum over a surface is right to 8 %, over one
-/// whose moments have random signs to 15 %.
+/// nor on the order of the points. Relative to its root mean square, a sum over a surface is accurate to 8 %, over
+/// one whose moments have random signs to 15 %.
 class WindingTree {
  public:
   /// @param points  (n, 3), n >= 1, finite and distinct

@@ -18,7 +18,7 @@ namespace {
 /// Neighbours in which the spacing is measured.
 constexpr Index patch = 16;
 
-/// The median side of the square of surface that each point has for itself.
+/// The median spacing: the side of the square of surface that belongs to each point.
 double median_spacing(const PointsRef& points) {
   const Neighbors neighbors = nearest_neighbors(points, std::min(patch, points.rows() - 1));
   std::vector<double> radii(static_cast<std::size_t>(points.rows()));
@@ -30,7 +30,7 @@ double median_spacing(const PointsRef& points) {
   return *median * std::sqrt(std::numbers::pi / static_cast<double>(neighbors.cols() + 1));
 }
 
-/// A step down |winding(moments) - 1/2|^2, as far as it goes down.
+/// A step of steepest descent of |winding(moments) - 1/2|^2, by exact line search.
 void approach_half(const WindingTree& tree, double width, Points& moments) {
   const Eigen::VectorXd missing = 0.5 - tree.winding(moments, width).array();
   const Points direction = tree.adjoint(missing, width);
@@ -53,7 +53,7 @@ Points wnnc_normals(const PointsRef& points, const WnncOptions& options, const P
   const double last = options.spacings_wide * median_spacing(points);
   require(last > 0, "most of the points coincide");
   const double diagonal = (points.colwise().maxCoeff() - points.colwise().minCoeff()).norm();
-  // A thick shell of noise is seen whole first.
+  // The first width covers a thick shell of noise.
   const double first = std::max(options.first_width * diagonal, 2 * last);
   const WindingTree tree(points);
   Points moments = Points::Zero(n, 3);

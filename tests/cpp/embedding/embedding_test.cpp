@@ -112,6 +112,23 @@ TEST(Embedding, RefusesABadContract) {
                InvalidArgument);
   const Coordinates narrow = Coordinates::Zero(200, 4);
   EXPECT_THROW(embedded(sphere, 0.5, 0.5, {}, narrow), InvalidArgument);
+  const Curvature nothing{{0, 2}, Points(0, 3)};
+  EXPECT_THROW(solve_embedding(Points(0, 3), Points(0, 3), nothing, Faces(0, 3), Eigen::VectorXd(0), {}),
+               InvalidArgument);
+}
+
+TEST(Embedding, NeedsAnExtent) {
+  const auto sphere = clouds::sphere(200);
+  const Curvature curvature{Eigen::MatrixXd::Ones(200, 2), sphere.normals};
+  const Faces faces = Eigen::RowVector<Index, 3>(0, 1, 2);
+  EXPECT_THROW(solve_embedding(Points::Ones(200, 3), sphere.normals, curvature, faces, Eigen::VectorXd::Ones(1), {}),
+               CannotReconstruct);
+}
+
+TEST(Embedding, SaysWhenALengthIsOutOfProportion) {
+  EmbeddingOptions options;
+  options.bending_length = 1e300;
+  EXPECT_THROW(embedded(clouds::sphere(200), 0.5, 0.5, options), CannotReconstruct);
 }
 
 TEST(Embedding, StopsWhenProgressSaysSo) {

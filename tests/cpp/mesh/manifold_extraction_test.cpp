@@ -136,6 +136,37 @@ TEST(ManifoldExtraction, AccountsForEveryCandidate) {
                               c.refused_fold + c.refused_normal + c.refused_size + c.refused_loose);
 }
 
+TEST(ManifoldExtraction, RefusesCandidatesThatCannotBe) {
+  const auto sphere = clouds::sphere(10);
+  const Eigen::VectorXd radii = Eigen::VectorXd::Ones(10);
+  const auto extract = [&](Index a, Index b, Index c, int count) {
+    Candidates candidates{Faces(1, 3), Eigen::VectorXi::Constant(1, count), Eigen::VectorXd::Ones(10)};
+    candidates.triangles << a, b, c;
+    extract_manifold(sphere.points, sphere.normals, radii, candidates, {});
+  };
+  EXPECT_NO_THROW(extract(7, 8, 9, 3));
+  EXPECT_THROW(extract(7, 8, 10, 3), InvalidArgument);
+  EXPECT_THROW(extract(7, 8, Index{1} << 40, 3), InvalidArgument);
+  EXPECT_THROW(extract(-1, 8, 9, 3), InvalidArgument);
+  EXPECT_THROW(extract(8, 7, 9, 3), InvalidArgument) << "not ascending";
+  EXPECT_THROW(extract(7, 7, 9, 3), InvalidArgument) << "a corner twice";
+  EXPECT_THROW(extract(7, 8, 9, 0), InvalidArgument);
+  EXPECT_THROW(extract(7, 8, 9, 4), InvalidArgument);
+}
+
+TEST(ManifoldExtraction, RefusesRowsThatDoNotMatch) {
+  const auto sphere = clouds::sphere(10);
+  const Eigen::VectorXd radii = Eigen::VectorXd::Ones(10);
+  const Candidates none{Faces(0, 3), Eigen::VectorXi(0), Eigen::VectorXd::Ones(10)},
+      uncounted{Faces(0, 3), Eigen::VectorXi(1), {}};
+  EXPECT_EQ(extract_manifold(sphere.points, sphere.normals, radii, none, {}).faces.rows(), 0);
+  EXPECT_THROW(extract_manifold(sphere.points, sphere.normals, radii, uncounted, {}), InvalidArgument);
+  EXPECT_THROW(extract_manifold(sphere.points.topRows(9), sphere.normals, radii, none, {}), InvalidArgument);
+  EXPECT_THROW(extract_manifold(sphere.points.leftCols(2), sphere.normals, radii, none, {}), InvalidArgument);
+  EXPECT_THROW(extract_manifold(sphere.points, sphere.normals, radii.head(9), none, {}), InvalidArgument);
+  EXPECT_THROW(extract_manifold(sphere.points, sphere.normals, -radii, none, {}), InvalidArgument);
+}
+
 TEST(ManifoldExtraction, RefusesLimitsThatAreNone) {
   ExtractionOptions options;
   options.max_fold = 0;

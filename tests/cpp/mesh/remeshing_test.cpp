@@ -150,6 +150,21 @@ TEST(Remeshing, RefusesABadContract) {
   EXPECT_THROW(remeshed(fan, 0.1), InvalidArgument) << "three faces share an edge";
 }
 
+TEST(Remeshing, RefusesMoreTrianglesThanCanBeCounted) {
+  EXPECT_THROW(remeshed(shapes::tetrahedron(), 1e-6), InvalidArgument);
+  EXPECT_THROW(remeshed(shapes::tetrahedron(), 1e-300), InvalidArgument);
+}
+
+TEST(Remeshing, LeavesOutVerticesWithoutAFace) {
+  auto tetrahedron = shapes::tetrahedron();
+  const TriangleMesh mesh = remeshed(tetrahedron, 0.3);
+  tetrahedron.vertices.conservativeResize(5, 3);
+  tetrahedron.vertices.row(4) << 9, 9, 9;
+  const TriangleMesh same = remeshed(tetrahedron, 0.3);
+  EXPECT_EQ(same.vertices, mesh.vertices);
+  EXPECT_EQ(same.faces, mesh.faces);
+}
+
 TEST(Remeshing, RefusesAMeshCollapsedToAPoint) {
   const auto tetrahedron = shapes::tetrahedron();
   RemeshingOptions options;

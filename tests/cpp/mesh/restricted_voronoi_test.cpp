@@ -63,7 +63,22 @@ TEST(RestrictedVoronoi, SurvivesDuplicateSeeds) {
   EXPECT_TRUE(candidates_of(cloud, 0.3).cell_areas.allFinite());
 }
 
-TEST(RestrictedVoronoi, RefusesABadContract) { EXPECT_THROW(candidates_of(clouds::sphere(100), 0), InvalidArgument); }
+TEST(RestrictedVoronoi, RefusesABadContract) {
+  EXPECT_THROW(candidates_of(clouds::sphere(100), 0), InvalidArgument);
+  const auto sphere = clouds::sphere(10);
+  const Coordinates bases = tangent_bases_across(sphere.normals);
+  const Eigen::VectorXd radii = Eigen::VectorXd::Ones(10);
+  const Neighbors none = Neighbors::Constant(10, 4, -1);
+  EXPECT_EQ(restricted_voronoi_candidates(sphere.points, bases, none, radii).triangles.rows(), 0);
+  for (Index bad : {Index{10}, Index{1000000}, Index{-2}}) {
+    EXPECT_THROW(restricted_voronoi_candidates(sphere.points, bases, Neighbors::Constant(10, 4, bad), radii),
+                 InvalidArgument);
+  }
+  EXPECT_THROW(restricted_voronoi_candidates(sphere.points, bases, none.topRows(9), radii), InvalidArgument);
+  EXPECT_THROW(restricted_voronoi_candidates(sphere.points, bases.leftCols(4), none, radii), InvalidArgument);
+  EXPECT_THROW(restricted_voronoi_candidates(sphere.points, bases, none, radii.head(9)), InvalidArgument);
+  EXPECT_THROW(restricted_voronoi_candidates(sphere.points, bases * HUGE_VAL, none, radii), InvalidArgument);
+}
 
 }  // namespace
 }  // namespace hdpea

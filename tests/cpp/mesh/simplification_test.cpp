@@ -103,6 +103,8 @@ TEST(Simplification, RefusesBrokenInput) {
   auto grid = shapes::grid(4, 4);
   EXPECT_THROW(simplify_mesh(grid.vertices, Coordinates(3, 8), grid.faces, ten, {}), InvalidArgument);
   EXPECT_THROW(simplify_mesh(grid.vertices, grid.vertices, grid.faces, ten, {.evenness = -1}), InvalidArgument);
+  EXPECT_THROW(simplified(grid, {.vertices = -1}), InvalidArgument);
+  EXPECT_THROW(simplified(grid, {.faces = std::numeric_limits<Index>::min()}), InvalidArgument);
   Faces outside = grid.faces;
   outside(0, 0) = 25;
   EXPECT_THROW(simplify_mesh(grid.vertices, grid.vertices, outside, ten, {}), InvalidArgument);

@@ -60,6 +60,7 @@ TEST(FarthestPointSampling, FewerSamplesAreAPrefixOfMore) {
 TEST(FarthestPointSampling, RefusesABadContract) {
   const Coordinates points = random_points(5, 3, 1024);
   EXPECT_THROW(farthest_point_sampling(points, 0, 0), InvalidArgument);
+  EXPECT_THROW(farthest_point_sampling(Coordinates(50, 0), 2, 0), InvalidArgument);
   EXPECT_THROW(farthest_point_sampling(points, 6, 0), InvalidArgument);
   EXPECT_THROW(farthest_point_sampling(points, 2, 5), InvalidArgument);
   EXPECT_THROW(farthest_point_sampling(points, 2, -1), InvalidArgument);

@@ -63,10 +63,18 @@ TEST(Neighbors, AQueryAtAPointFindsIt) {
   for (Index i = 0; i < 50; ++i) EXPECT_EQ((points.row(nearest(i, 0)) - points.row(i)).norm(), 0);
 }
 
+TEST(Neighbors, RefuseDistancesThatOverflow) {
+  const Coordinates points = random_points(5, 3, 1), far = 1e160 * points;
+  EXPECT_THROW(nearest_neighbors(far, 2), InvalidArgument);
+  EXPECT_THROW(nearest_neighbors(points, far, 2), InvalidArgument);
+  EXPECT_TRUE((nearest_neighbors(1e150 * points, -1e150 * points, 2).array() >= 0).all());
+}
+
 TEST(Neighbors, RefuseABadContract) {
   const Coordinates points = random_points(5, 3, 1);
   EXPECT_THROW(nearest_neighbors(points, 0), InvalidArgument);
   EXPECT_THROW(nearest_neighbors(Coordinates(0, 3), 1), InvalidArgument);
+  EXPECT_THROW(nearest_neighbors(Coordinates(5, 0), 1), InvalidArgument);
   EXPECT_THROW(nearest_neighbors(points, random_points(2, 8, 1), 1), InvalidArgument);
 }
 

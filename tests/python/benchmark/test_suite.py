@@ -93,7 +93,7 @@ def test_a_suite_says_what_to_run(tmp_path: Path) -> None:
 def test_fewer_models_can_be_taken(tmp_path: Path) -> None:
     assert read_suite(written(tmp_path, SUITE)).options.models == 0
     assert read_suite(written(tmp_path, SUITE), models=3).options.models == 3
-    with pytest.raises(UsageError, match="models is at least 0"):
+    with pytest.raises(UsageError, match="`models` is at least 0"):
         read_suite(written(tmp_path, SUITE), models=-1)
 
 
@@ -141,11 +141,11 @@ def test_the_suites_of_the_repository_are_in_order(path: Path) -> None:
         ("points = 2_000", "point = 2_000", "unknown key 'point'"),
         ("points = 2_000", "points = 'many'", "points = 'many'"),
         ("points = 2_000", "points = true", "points = True"),
-        ("points = 2_000", "points = 3", "points is at least 100"),
+        ("points = 2_000", "points = 3", "`points` is at least 100"),
         ("[500, 1_000]", "[500, 2]", "vertices is"),
         ("[500, 1_000]", "[]", "vertices is"),
         ("noise = 0.003", "noises = 0.003", "'scan' has an unknown key 'noises'"),
-        ("noise = 0.003", "noise = -1", "noise is at least 0"),
+        ("noise = 0.003", "noise = -1", "`noise` is at least 0"),
         ("points = 3_000", "points = 0.5", "'scan' has points = 0.5"),
         ("views = 3", "points = 3", "scan has an unknown key 'points'"),
         ('name = "scan"', 'name = "clean"', "Two inputs"),
@@ -161,7 +161,7 @@ def test_the_suites_of_the_repository_are_in_order(path: Path) -> None:
         ("{vertices}", "'", "cannot be filled in: No closing quotation"),
         ('source = "table 1"', 'from = "table 1"', "unknown key 'from'"),
         ('title = "all of it"', "title = all", "is not TOML"),
-        ("points = 2_000", "truth = 'guessed'", "truth is one of mesh, held_out"),
+        ("points = 2_000", "truth = 'guessed'", "`truth` is one of mesh, held_out"),
         ("points = 2_000", "truth = 'held_out'", "'scan' is of kind 'scan'"),
         ("points = 2_000", "truth = 'held_out'\nrendered = true", "cannot be rendered"),
     ],

@@ -16,6 +16,7 @@ from helpers.clouds import sphere_points
 from helpers.files import WITH_NORMALS
 
 from hdpea.cli import run
+from hdpea.cli.parameters import with_flags
 from hdpea.reading import read_points
 from hdpea.reconstruction import PHASES
 from hdpea.writing.meshes import MESH_FORMATS
@@ -134,6 +135,39 @@ def test_an_output_never_takes_the_place_of_its_input(command: str, tmp_path: Pa
     assert (tmp_path / "scan.ply").read_bytes() == WITH_NORMALS["binary.ply"]
 
 
+@pytest.mark.parametrize("flag", ["--report", "--config"])
+def test_no_other_file_of_a_run_takes_the_place_of_an_input(
+    flag: str, tmp_path: Path, failed: Callable[..., str]
+) -> None:
+    source = tmp_path / "in.json"
+    source.write_text("vertices = 100\n" if flag == "--config" else "1 2 3\n")
+    other = {"--report": [source, tmp_path / "mesh.obj"], "--config": [tmp_path / "scan.xyz", tmp_path / "mesh.obj"]}
+    flags = ["--report", source, *(["--config", source] if flag == "--config" else [])]
+    assert "both input and output" in failed(2, "reconstruct", *other[flag], *flags)
+    assert source.stat().st_size > 5
+
+
+def test_two_outputs_are_two_files(scan: str, tmp_path: Path, failed: Callable[..., str]) -> None:
+    (tmp_path / "soft.html").symlink_to(tmp_path / "mesh.ply")
+    assert "same output" in failed(
+        2, "curvature", scan, tmp_path / "mesh.ply", "--page", tmp_path / "soft.html", "--quiet"
+    )
+
+
+def test_errors_of_the_library_name_flags_where_they_come_from_a_command(
+    scan: str, tmp_path: Path, failed: Callable[..., str]
+) -> None:
+    told = failed(2, "reconstruct", scan, tmp_path / "m.obj", "--weights", "w")
+    assert "Hint: Give --embedding learned as well." in told
+    assert "--vertices is at least 4" in failed(2, "reconstruct", scan, tmp_path / "m.obj", "--vertices", "3")
+
+
+def test_flags_take_the_place_of_options_in_a_text() -> None:
+    flags = {"orient": "--orient", "refine": "--refine", "metric_scale": "--metric-scale"}
+    told = with_flags("Use `orient='auto'`, `refine=False`, `refine=True` or a `metric_scale`, not `points`.", flags)
+    assert told == "Use --orient auto, --no-refine, --refine or a --metric-scale, not `points`."
+
+
 @pytest.mark.usefixtures("stand_ins")
 def test_a_missed_target_keeps_the_mesh_but_is_an_error(scan: str, tmp_path: Path, failed: Callable[..., str]) -> None:
     assert "1 hole" in failed(5, "reconstruct", scan, tmp_path / "mesh.obj", "--watertight")
@@ -170,6 +204,9 @@ def test_a_missing_input_is_unreadable(tmp_path: Path, failed: Callable[..., str
         (["--orient", "guess"], "'guess'"),
         (["--orient", "viewpoint"], "no viewpoint"),
         (["--orient", "viewpoint", "--viewpoint", "up"], "not a position"),
+        (["--vertices", "1" + 30 * "0"], "at most"),
+        (["--max-stretch", "inf"], "--max-stretch is a number"),
+        (["--report", f"{'a' * 300}.json"], "too long"),
         (["--viewpoint", "1,2,3"], "of no use with orient auto"),
         (["--vertises", "9"], "--vertices"),
         (["--report", "report.txt"], ".json"),

@@ -83,6 +83,9 @@ def test_an_unknown_key_names_the_nearest(chosen: Chosen) -> None:
         ("vertices = 3", "at least 4"),
         ("refine = 'perhaps'", "perhaps"),
         ("vertices", "not a TOML file"),
+        (f"vertices = {'[' * 5000}{']' * 5000}", "nested too deep"),
+        (f"vertices = 0x{'f' * 6000}", "not a setting's"),
+        (f"vertices = {2**64}", "is at most"),
         ("[meshing]\nvertices = 500", "table"),
     ],
 )

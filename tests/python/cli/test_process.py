@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import os
 import resource
+import shlex
 import signal
 import subprocess
 import sys
@@ -82,8 +83,43 @@ def test_no_arguments_show_the_help_and_are_wrong_usage() -> None:
     assert "reconstruct" in ran.stderr
 
 
-def interrupted(script: list[str], phase: str = "meshing") -> tuple[int, str]:
-    """Run a command, send it Ctrl-C once it says a phase; return exit code and errors.
+def shell(redirection: str, script: list[str]) -> subprocess.CompletedProcess[str]:
+    line = f"{shlex.join(script)} {redirection}"
+    return subprocess.run(["/bin/sh", "-c", line], capture_output=True, text=True, check=False)
+
+
+@pytest.mark.parametrize("redirection", ["2>&-", "2>/dev/full", "2>&- >&- <&-"])
+def test_progress_that_cannot_be_written_costs_no_mesh(redirection: str, tmp_path: Path) -> None:
+    (tmp_path / "scan.ply").write_bytes(WITH_NORMALS["binary.ply"])
+    ran = shell(redirection, stand_in("reconstruct", tmp_path / "scan.ply", tmp_path / "mesh.obj"))
+    assert ran.returncode == 0
+    assert (tmp_path / "mesh.obj").read_text().count("f ") == 1
+
+
+@pytest.mark.parametrize("redirection", [">&-", ">/dev/full"])
+def test_a_result_that_cannot_be_written_is_an_error(redirection: str) -> None:
+    ran = shell(redirection, command("--version"))
+    assert ran.returncode == 2
+    assert ran.stderr.startswith("Error: Cannot write to standard output: ")
+    assert "Hint: " in ran.stderr
+
+
+def test_a_standard_input_that_is_closed_is_an_error() -> None:
+    ran = shell("<&-", command("info", "-"))
+    assert ran.returncode == 3
+    assert ran.stderr.startswith("Error: Cannot read standard input: it is closed.")
+
+
+def test_standard_input_takes_no_harm_either(tmp_path: Path) -> None:
+    (tmp_path / "in.json").write_bytes(WITH_NORMALS["plain.xyz"])
+    script = stand_in("reconstruct", "-", tmp_path / "mesh.obj", "--report", tmp_path / "in.json")
+    ran = shell(f"<{tmp_path / 'in.json'}", script)
+    assert ran.returncode == 2
+    assert (tmp_path / "in.json").read_bytes() == WITH_NORMALS["plain.xyz"]
+
+
+def interrupted(script: list[str], phase: str = "meshing", number: signal.Signals = signal.SIGINT) -> tuple[int, str]:
+    """Run a command, send it a signal, that of Ctrl-C, once it says a phase; return exit code and errors.
 
     It fails if the command has not ended 10 seconds later: one that waits out its work takes a minute.
     """
@@ -95,7 +131,7 @@ def interrupted(script: list[str], phase: str = "meshing") -> tuple[int, str]:
         assert byte, told.decode()
         told += byte
     time.sleep(0.1)
-    process.send_signal(signal.SIGINT)
+    process.send_signal(number)
     told += process.communicate(timeout=10)[1]
     return process.returncode, told.decode()
 
@@ -104,6 +140,15 @@ def interrupted(script: list[str], phase: str = "meshing") -> tuple[int, str]:
 def sleeping(tmp_path: Path) -> list[str]:
     (tmp_path / "scan.ply").write_bytes(WITH_NORMALS["binary.ply"])
     return stand_in("reconstruct", tmp_path / "scan.ply", tmp_path / "mesh.obj", "--seed", str(standins.SLEEPING_SEED))
+
+
+@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGHUP])
+def test_a_run_that_is_terminated_leaves_nothing(number: signal.Signals, sleeping: list[str], tmp_path: Path) -> None:
+    exit_code, told = interrupted(sleeping, number=number)
+    assert exit_code == 143
+    assert "Error: Terminated" in told
+    assert "Traceback" not in told
+    assert [each.name for each in tmp_path.iterdir()] == ["scan.ply"]
 
 
 def test_ctrl_c_ends_at_once_and_leaves_nothing(sleeping: list[str], tmp_path: Path) -> None:
@@ -128,7 +173,8 @@ def test_ctrl_c_ends_a_real_run_wherever_it_is(phase: str, tmp_path: Path) -> No
     assert (tmp_path / "mesh.obj").read_text() == "the mesh of the last run"
 
 
-def test_ctrl_c_ends_compiled_code_that_never_looks_up(tmp_path: Path) -> None:
+@pytest.mark.parametrize(("number", "code"), [(signal.SIGINT, 130), (signal.SIGTERM, 143)])
+def test_signals_end_compiled_code_that_never_looks_up(number: signal.Signals, code: int, tmp_path: Path) -> None:
     # Like a long call of the core: Python's own handling of Ctrl-C has no chance to run.
     script = f"""
 import hashlib, sys
@@ -140,7 +186,7 @@ with prompt_interrupts(), replacing(Path({str(tmp_path / "mesh.obj")!r})) as par
     sys.stderr.write("meshing ...")
     hashlib.pbkdf2_hmac("sha256", b"", b"", 10**9)
 """
-    exit_code, told = interrupted([sys.executable, "-c", script])
-    assert exit_code == 130
-    assert "Error: Interrupted" in told
+    exit_code, told = interrupted([sys.executable, "-c", script], number=number)
+    assert exit_code == code
+    assert ("Error: Interrupted" if code == 130 else "Error: Terminated") in told
     assert list(tmp_path.iterdir()) == []

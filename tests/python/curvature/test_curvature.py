@@ -251,9 +251,9 @@ def test_more_vertices_than_the_default_thin_less(monkeypatch: pytest.MonkeyPatc
 def test_what_cannot_be_estimated_is_refused() -> None:
     with pytest.raises(CannotReconstruct, match="too few"):
         estimate_curvature(clouds.sphere(8)[0])
-    with pytest.raises(UsageError, match="neighbors is at least 6"):
+    with pytest.raises(UsageError, match="`neighbors` is at least 6"):
         EstimationOptions(neighbors=5)
-    with pytest.raises(UsageError, match="method is one of"):
+    with pytest.raises(UsageError, match="`method` is one of"):
         EstimationOptions(method="magic")
     with pytest.raises(UsageError, match="scale 0"):
         CurvatureOptions(embedding=EmbeddingOptions(metric_scale=0))

@@ -44,14 +44,14 @@ def _solve(principal: NDArray[np.float64], direction1: NDArray[np.float64], **ot
     _core.solve_embedding(curvature=curvature, options=_core.EmbeddingOptions(), **others)
 
 
-def _remesh(vertices: NDArray[np.float64], faces: NDArray[np.int64]) -> _core.TriangleMesh:
+def _remesh(vertices: NDArray[np.float64], faces: NDArray[np.int64]) -> None:
     options = _core.RemeshingOptions()
     options.edge_length = 0.7
-    return _core.remesh_isotropically(vertices, faces, options)
+    _core.remesh_isotropically(vertices, faces, options)
 
 
-def _simplify(**arrays: Any) -> _core.SimplifiedMesh:
-    return _core.simplify_mesh(budget=_core.MeshBudget(), **arrays)
+def _simplify(**arrays: Any) -> None:
+    _core.simplify_mesh(budget=_core.MeshBudget(), **arrays)
 
 
 CALLS: dict[str, tuple[Callable[..., Any], Arguments]] = {
@@ -118,16 +118,16 @@ def broken(value: Any) -> Iterator[tuple[Any, bool]]:
         yield -2 if isinstance(value, int) else -2.0, True
         return
     yield value[:0], False
+    yield value[:, :0] if value.ndim == 2 else value[:0], False
     yield value[:, ::-1] if value.ndim == 2 else value[::-1], False  # not contiguous
+    yield np.zeros_like(value), False
+    yield np.random.default_rng(0).permuted(value.ravel()).reshape(value.shape), False
     yield np.zeros((3, 3, 3)), True
     if value.dtype.kind == "f":
-        for bad in (np.nan, np.inf, -np.inf):
-            spoilt = value.copy()
-            spoilt.flat[-1] = bad
-            yield spoilt, True
-        return
-    for bad in (-2, len(POINTS), 10**6, 2**40):
-        if bad > np.iinfo(value.dtype).max:
+        for scale in (1e-320, 1e-160, 1e100, 1e160, 1e300):
+            yield value * scale, False
+    for bad in (np.nan, np.inf) if value.dtype.kind == "f" else (-2, len(POINTS), 10**6, 2**40):
+        if value.dtype.kind == "i" and bad > np.iinfo(value.dtype).max:
             continue
         spoilt = value.copy()
         spoilt.flat[-1] = bad

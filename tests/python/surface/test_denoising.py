@@ -166,5 +166,5 @@ def test_it_can_be_cancelled() -> None:
 
 
 def test_too_few_neighbors_are_refused() -> None:
-    with pytest.raises(UsageError, match="denoise_neighbors is at least 6"):
+    with pytest.raises(UsageError, match="`denoise_neighbors` is at least 6"):
         DenoisingOptions(denoise_neighbors=5)

@@ -82,7 +82,7 @@ def test_insisting_on_the_files_normals_fails_where_some_are_unusable() -> None:
     for given in (without(truth, 0.1), None):
         with pytest.raises(UnreadableInput, match="no usable normal") as caught:
             oriented_surface(points, given, insist)
-        assert "--normals auto" in caught.value.hint
+        assert "`normals='auto'`" in caught.value.hint
 
 
 def test_neighbours_lie_on_the_same_sheet() -> None:

@@ -81,7 +81,7 @@ def test_signs_that_the_file_lacks_are_unreadable() -> None:
     for given in (None, 0 * truth):
         with pytest.raises(UnreadableInput, match="no usable normals") as caught:
             oriented(points, given, orient="file")
-        assert "--orient auto" in caught.value.hint
+        assert "`orient='auto'`" in caught.value.hint
 
 
 def test_normals_face_the_viewpoint() -> None:

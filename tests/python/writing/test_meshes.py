@@ -65,8 +65,35 @@ def test_stl_is_binary_unless_single_precision_would_hurt(tmp_path: Path) -> Non
     assert b"vertex 10000000.125" in (tmp_path / "far.stl").read_bytes()
 
 
+@pytest.mark.parametrize("extension", MESH_FORMATS)
+@pytest.mark.parametrize("size", [1e-50, 1e50])
+def test_meshes_may_be_of_any_size(extension: str, size: float, tmp_path: Path) -> None:
+    write_mesh(tmp_path / f"mesh{extension}", tetrahedron(size=size), TETRAHEDRON_FACES)
+    found = read_mesh(tmp_path / f"mesh{extension}").triangles / size
+    np.testing.assert_allclose(found, tetrahedron()[TETRAHEDRON_FACES], atol=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("vertices", "faces", "reason"),
+    [
+        (np.ones((4, 2)), TETRAHEDRON_FACES, "vertices are"),
+        (np.full((4, 3), np.nan), TETRAHEDRON_FACES, "finite"),
+        (tetrahedron(), TETRAHEDRON_FACES + 1, "no vertex"),
+        (tetrahedron(), TETRAHEDRON_FACES - 1, "no vertex"),
+        (tetrahedron(), TETRAHEDRON_FACES[:, :2], "faces are"),
+        (tetrahedron(), TETRAHEDRON_FACES / 2, "faces are"),
+    ],
+)
+def test_what_is_no_mesh_is_not_written(
+    vertices: NDArray[np.float64], faces: NDArray[np.int64], reason: str, tmp_path: Path
+) -> None:
+    with pytest.raises(UsageError, match=reason):
+        write_mesh(tmp_path / "mesh.obj", vertices, faces)
+    assert list(tmp_path.iterdir()) == []
+
+
 def test_an_empty_mesh_is_a_legal_file(tmp_path: Path) -> None:
-    for extension in EXACT_FORMATS:
+    for extension in MESH_FORMATS:
         write_mesh(tmp_path / f"mesh{extension}", np.empty((0, 3)), np.empty((0, 3), dtype=np.int64))
         assert (tmp_path / f"mesh{extension}").exists()
 
