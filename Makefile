@@ -137,12 +137,16 @@ sanitize: debian $(VENV)/.dependencies
 pytest: setup
 	$(BIN)/pytest
 
-# Random clouds and damaged files, for as long as it takes: make fuzz CLOUDS=10000 FILES=5000 SEED=0
+# Random clouds, files, commands and calls of the core, for as long as it takes: make fuzz CLOUDS=10000 SEED=7
 CLOUDS ?= 10000
 FILES ?= 5000
+COMMANDS ?= 2000
+CORE ?= 5000
 SEED ?= 0
+MINUTES ?= 600
 fuzz: setup
-	PYTHONPATH=tests/python $(BIN)/python benchmarks/fuzz.py --clouds $(CLOUDS) --files $(FILES) --seed $(SEED)
+	PYTHONPATH=tests/python $(BIN)/python benchmarks/fuzz.py --seed $(SEED) --minutes $(MINUTES) \
+	  --clouds $(CLOUDS) --files $(FILES) --commands $(COMMANDS) --core $(CORE)
 
 clean:
 	rm -rf build $(VENV) $(DEMO)

@@ -67,6 +67,8 @@ def roughness_of(points: NDArray[np.float64]) -> Roughness:
     around = points[_core.nearest_neighbors(points, points[rows], NEIGHBORS)]
     offsets = around - around.mean(axis=1, keepdims=True)
     radii = np.linalg.norm(around - points[rows, None], axis=2).max(axis=1)
+    # Points that are distinct in the world may be equal in the unit frame: those lie on any plane.
+    radii = np.where(radii > 0, radii, 1.0)
     _, frames = np.linalg.eigh(offsets.swapaxes(1, 2) @ offsets)
     height, u, v = np.moveaxis((offsets @ frames) / radii[:, None, None], 2, 0)
     plane = np.stack([np.ones_like(u), u, v], axis=2)

@@ -37,3 +37,8 @@ def test_the_two_sides_of_a_thin_wall_are_not_noise(spacings_apart: float) -> No
 def test_points_too_few_or_on_a_line_have_none() -> None:
     assert roughness_of(clouds.sphere(20)[0]) == Roughness(0, False)
     assert roughness_of(np.outer(np.linspace(0, 1, 100), [1.0, 2, 3])).deviation == pytest.approx(0, abs=1e-9)
+
+
+def test_points_that_coincide_are_smooth() -> None:
+    points = np.repeat(clouds.sphere(40)[0], 40, axis=0)
+    assert roughness_of(points).deviation < 1e-6
