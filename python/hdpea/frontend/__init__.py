@@ -1,0 +1,2 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What of a raw cloud is surface, and how that is sampled: found before anything else is asked of it."""
