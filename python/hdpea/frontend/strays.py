@@ -28,11 +28,14 @@ Both, since at an edge points lie off the plane of others that do so too, and on
 LEAST_DEVIATION = 0.3
 """Least standard deviation that the others are granted, in spacings: of twelve points it may be small by chance."""
 
+FARTHER_FROM_LINES = 4.0
+"""How many times farther, of points on lines: those that the last line crosses a corner by lie twice as far apart."""
+
 ROUNDS = 20
 """Most rounds: each lays open what hid behind the strays of the one before, and most clouds are settled after five."""
 
 
-def find_strays(points: NDArray[np.float64]) -> NDArray[np.bool_]:
+def find_strays(points: NDArray[np.float64], on_lines: bool = False) -> NDArray[np.bool_]:
     """Return which points (n, 3) are strays, (n,) bool: not one in ten thousand where there are none.
 
     A point is a stray where its 12th or 24th nearest point is twice as far away as the same is from the points around
@@ -41,13 +44,15 @@ def find_strays(points: NDArray[np.float64]) -> NDArray[np.bool_]:
     its nearest points as none of these does. Strays once found say nothing about others; so it is repeated without
     them until no more are found. Neither moving, turning nor scaling the cloud makes a difference.
 
+    Of points that lie `on_lines`, where planes of the nearest mean nothing, only those count that lie four times as far.
+
     Clouds of fewer than 25 points are too small for strays.
     """
     left = np.arange(len(points))
     for _ in range(ROUNDS):
         if len(left) <= max(REACHES):
             break
-        found = _stand_out(np.ascontiguousarray(points[left]))
+        found = _stand_out(np.ascontiguousarray(points[left]), on_lines)
         if not found.any():
             break
         left = left[~found]
@@ -56,14 +61,17 @@ def find_strays(points: NDArray[np.float64]) -> NDArray[np.bool_]:
     return strays
 
 
-def _stand_out(points: NDArray[np.float64]) -> NDArray[np.bool_]:
+def _stand_out(points: NDArray[np.float64], on_lines: bool) -> NDArray[np.bool_]:
     """Return which points (n, 3) stand out from those around them, (n,) bool."""
     nearest = _core.nearest_neighbors(points, max(REACHES))
     offsets = points[nearest] - points[:, None]  # (n, k, 3)
     distances = np.sqrt(np.einsum("nkc,nkc->nk", offsets, offsets))
     far = np.zeros(len(points), dtype=bool)
+    farther = FARTHER_FROM_LINES if on_lines else FARTHER
     for count in REACHES:
-        far |= distances[:, count - 1] > FARTHER * _around(distances[:, count - 1], nearest[:, :count])
+        far |= distances[:, count - 1] > farther * _around(distances[:, count - 1], nearest[:, :count])
+    if on_lines:
+        return far
     # A disk that reaches to the k-th neighbour holds k points.
     spacing = _around(distances[:, PLANE_POINTS - 1], nearest[:, :PLANE_POINTS]) * np.sqrt(np.pi / PLANE_POINTS)
     return far | _off_the_plane(offsets[:, :PLANE_POINTS], spacing)
