@@ -161,9 +161,7 @@ def reconstruct(
         with clock.stage("embedding"):
             embedded = embed_surface(surface, particles, options.embedding, progress, embedder)
             bases = tangent_bases(embedded.coordinates, surface.normals, surface.neighbors, per_particle)
-        mesh = assemble_mesh(
-            surface, embedded.coordinates, bases, options, progress, clock, found.points_shown
-        )
+        mesh = assemble_mesh(surface, embedded.coordinates, bases, options, progress, clock, found.points_shown)
         with clock.stage("measuring"):
             tell(progress, "measuring", 0)
             facts = mesh_facts(mesh)

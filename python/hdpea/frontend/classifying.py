@@ -74,9 +74,7 @@ def classify(points: ArrayLike) -> Classified:
     return Classified(strays, sampling.kept & ~strays, sampling.spacing, sampling.on_lines)
 
 
-def _as_nearest(
-    points: NDArray[np.float64], sampling: Sampling, strays: NDArray[np.bool_]
-) -> NDArray[np.bool_]:
+def _as_nearest(points: NDArray[np.float64], sampling: Sampling, strays: NDArray[np.bool_]) -> NDArray[np.bool_]:
     """Return the strays (n,) among all points (n, 3), where what was not kept is what the nearest kept one is."""
     standing = np.flatnonzero(sampling.kept)
     nearest = _core.nearest_neighbors(np.ascontiguousarray(points[standing]), points, 1)[:, 0]

@@ -111,9 +111,7 @@ def _dimension(points: NDArray[np.float64]) -> NDArray[np.float64]:
     return np.asarray(2 * on_a_plane / np.maximum(growth[nearest[:, :AVERAGED]].mean(axis=1), tiny))
 
 
-def _share_of(
-    level: NDArray[np.float64], least: float
-) -> tuple[dict[float, NDArray[np.float64]], NDArray[np.float64]]:
+def _share_of(level: NDArray[np.float64], least: float) -> tuple[dict[float, NDArray[np.float64]], NDArray[np.float64]]:
     """Return which share of the points around each of a level (m, 3) have so little surface, and the square's side."""
     nearest = _core.nearest_neighbors(level, SURROUNDING)
     area = np.pi * np.square(level[nearest[:, -1]] - level).sum(axis=1) / SURROUNDING

@@ -28,6 +28,11 @@ Both, since at an edge points lie off the plane of others that do so too, and on
 LEAST_DEVIATION = 0.3
 """Least standard deviation that the others are granted, in spacings: of twelve points it may be small by chance."""
 
+COMPANY = 4
+"""Others, of the 24 nearest, that lie as far off the plane on the same side, of which one makes no stray.
+
+They are the other side of a thin wall, of which the nearest twelve may have none by chance."""
+
 FARTHER_FROM_LINES = 4.0
 """How many times farther, of points on lines: those that the last line crosses a corner by lie twice as far apart."""
 
@@ -44,7 +49,7 @@ def find_strays(points: NDArray[np.float64], on_lines: bool = False) -> NDArray[
     its nearest points as none of these does. Strays once found say nothing about others; so it is repeated without
     them until no more are found. Neither moving, turning nor scaling the cloud makes a difference.
 
-    Of points that lie `on_lines`, where planes of the nearest mean nothing, only those count that lie four times as far.
+    Of points `on_lines`, where the plane of the nearest means nothing, only those count that lie four times as far.
 
     Clouds of fewer than 25 points are too small for strays.
     """
@@ -74,7 +79,7 @@ def _stand_out(points: NDArray[np.float64], on_lines: bool) -> NDArray[np.bool_]
         return far
     # A disk that reaches to the k-th neighbour holds k points.
     spacing = _around(distances[:, PLANE_POINTS - 1], nearest[:, :PLANE_POINTS]) * np.sqrt(np.pi / PLANE_POINTS)
-    return far | _off_the_plane(offsets[:, :PLANE_POINTS], spacing)
+    return far | _off_the_plane(offsets, spacing)
 
 
 def _around(values: NDArray[np.float64], nearest: NDArray[np.int64]) -> NDArray[np.float64]:
@@ -83,10 +88,17 @@ def _around(values: NDArray[np.float64], nearest: NDArray[np.int64]) -> NDArray[
 
 
 def _off_the_plane(offsets: NDArray[np.float64], spacing: NDArray[np.float64]) -> NDArray[np.bool_]:
-    """Return where the origin lies off the plane of the `offsets` (n, k, 3), as none of these does."""
-    middle = offsets.mean(axis=1)
-    around = offsets - middle[:, None]
-    variances, axes = np.linalg.eigh(around.swapaxes(1, 2) @ around / offsets.shape[1])
-    height = abs(np.einsum("nc,nc->n", middle, axes[:, :, 0]))
+    """Return where the origin lies off the plane of the nearest of the `offsets` (n, k, 3), as few of these do."""
+    nearest = offsets[:, :PLANE_POINTS]
+    middle = nearest.mean(axis=1)
+    around = nearest - middle[:, None]
+    variances, axes = np.linalg.eigh(around.swapaxes(1, 2) @ around / PLANE_POINTS)
+    below = np.einsum("nc,nc->n", middle, axes[:, :, 0])
+    height = abs(below)
     deviation = np.maximum(np.sqrt(np.maximum(variances[:, 0], 0)), LEAST_DEVIATION * spacing)
-    return np.asarray((height > OFF_THE_PLANE * spacing) & (height > OFF_THE_REST * deviation))
+    off = (height > OFF_THE_PLANE * spacing) & (height > OFF_THE_REST * deviation)
+    rows = np.flatnonzero(off)
+    # Those nearer to the parallel plane through the point than to the plane itself.
+    heights = np.einsum("nkc,nc->nk", offsets[rows], axes[rows, :, 0]) / below[rows, None]
+    off[rows[(heights < 0.5).sum(axis=1) >= COMPANY]] = False
+    return off
