@@ -17,7 +17,7 @@ AVERAGED = 32
 """Neighbours over which it is averaged, or chance would tell: their estimates spread by a tenth."""
 
 LINE_DIMENSION = 1.5
-"""Dimension under which points lie on lines: surfaces have 2.0, 1.4 by chance, noisy ones more, rings of 15:1 have 1.26.
+"""Dimension under which points lie on lines: surfaces have 2.0, 1.4 by chance, noisy ones more, rings of 15:1 1.26.
 
 Of the points of 16 surfaces 0.3 % at most fell below, of rings 65 to 93 % (24 nearest points, noise of half a step)."""
 
@@ -36,7 +36,7 @@ FEWEST = 200
 COVERED = 2.5
 """Area for each point, in squares of their least distance, under which a level covers the surface in all directions.
 
-Farthest points of an even cloud have 1.6 to 2.2; on lines it is 1.3 times the gap between these, in steps along them."""
+Farthest points of an even cloud have 1.6 to 2.2; on lines it is 1.3 times the gap between them in steps along them."""
 
 KEPT_DETAIL = 7.0
 """Area for each point, in the same squares, under which points are kept: five points along a line for each gap.

@@ -15,7 +15,7 @@ FARTHER = 2.0
 """How many times farther than theirs: of 40,000 points spread at random over a surface none comes to it."""
 
 SURROUNDINGS = 0.25
-"""Quantile of the neighbours' distances that it is compared with: a quarter of them may tell, the rest be strays too."""
+"""Quantile of the neighbours' distances that it is compared with: a quarter of them may tell, the others be strays."""
 
 PLANE_POINTS = 12
 """Nearest points whose plane, fitted without the point itself, it lies off."""
@@ -96,7 +96,7 @@ def _off_the_plane(offsets: NDArray[np.float64], spacing: NDArray[np.float64]) -
     below = np.einsum("nc,nc->n", middle, axes[:, :, 0])
     height = abs(below)
     deviation = np.maximum(np.sqrt(np.maximum(variances[:, 0], 0)), LEAST_DEVIATION * spacing)
-    off = (height > OFF_THE_PLANE * spacing) & (height > OFF_THE_REST * deviation)
+    off: NDArray[np.bool_] = (height > OFF_THE_PLANE * spacing) & (height > OFF_THE_REST * deviation)
     rows = np.flatnonzero(off)
     # Those nearer to the parallel plane through the point than to the plane itself.
     heights = np.einsum("nkc,nc->nk", offsets[rows], axes[rows, :, 0]) / below[rows, None]

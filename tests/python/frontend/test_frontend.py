@@ -5,13 +5,13 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from helpers.shapes import sphere
 from numpy.typing import NDArray
 
 from hdpea.frontend import classify
 from hdpea.frontend.cleaning import surface_cloud
 from hdpea.options import CleaningOptions
 from hdpea.reading.cloud import PointCloud
-from helpers.shapes import sphere
 
 Points = NDArray[np.float64]
 
