@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from hdpea.embedding import Embedder, embed_surface
 from hdpea.embedding.tangents import tangent_bases
 from hdpea.errors import core_errors_translated
+from hdpea.frontend.cleaning import surface_cloud
 from hdpea.mesh.assembly import assemble_mesh
 from hdpea.mesh.budget import particles_wanted
 from hdpea.options import Length, Options
@@ -22,7 +23,17 @@ from hdpea.runtime.progress import ProgressCallback, tell
 from hdpea.runtime.threads import limited_threads
 from hdpea.surface.preparation import prepare_surface
 
-PHASES = ("normals", "denoising", "embedding", "particles", "meshing", "refinement", "simplification", "measuring")
+PHASES = (
+    "cleaning",
+    "normals",
+    "denoising",
+    "embedding",
+    "particles",
+    "meshing",
+    "refinement",
+    "simplification",
+    "measuring",
+)
 """The phases that ``progress`` hears of, in order; of denoising only if there is noise, or it is asked for, and of
 simplification, and another refinement after it, only if fewer vertices are wanted than particles are spread."""
 
@@ -138,24 +149,29 @@ def reconstruct(
     clock = journal.clock
     with limited_threads(options.threads), core_errors_translated():
         cloud = cleaned_cloud(points, normals, sensors)
-        per_particle = len(cloud.points) / options.particles_of(len(cloud.points))
+        with clock.stage("cleaning"):
+            tell(progress, "cleaning", 0)
+            found = surface_cloud(cloud, options.cleaning)
+            cloud = found.cloud
+            tell(progress, "cleaning", 1)
+        per_particle = len(cloud.points) / options.particles_of(found.points_shown)
         prepared = prepare_surface(cloud, options.normals, options.denoising, per_particle, progress, clock)
-        particles, count_choices = particles_wanted(options, len(cloud.points))
+        particles, count_choices = particles_wanted(options, found.points_shown)
         surface = prepared.surface
         with clock.stage("embedding"):
             embedded = embed_surface(surface, particles, options.embedding, progress, embedder)
             bases = tangent_bases(embedded.coordinates, surface.normals, surface.neighbors, per_particle)
-        mesh = assemble_mesh(surface, embedded.coordinates, bases, options, progress, clock)
+        mesh = assemble_mesh(surface, embedded.coordinates, bases, options, progress, clock, found.points_shown)
         with clock.stage("measuring"):
             tell(progress, "measuring", 0)
             facts = mesh_facts(mesh)
             distances = distances_to(mesh, prepared.oriented.surface)
             tell(progress, "measuring", 1)
     journal.source["format"] = cloud.format
-    journal.counts |= cloud.counts() | {"normals_estimated": prepared.oriented.estimated}
+    journal.counts |= cloud.counts() | found.counts() | {"normals_estimated": prepared.oriented.estimated}
     journal.choices += [*prepared.choices, *count_choices, *embedded.choices, *mesh.choices]
     journal.meshing |= mesh.statistics
-    journal.notes += [*cloud.notes, *prepared.notes]
+    journal.notes += [*cloud.notes, *found.notes, *prepared.notes]
     journal.missed += missed_targets(mesh, facts, options.meshing)
     vertices_in_world = surface.frame.to_world(mesh.vertices_in_unit)
     return Reconstruction(vertices_in_world, mesh.faces, Report.of(journal, facts, distances))

@@ -34,7 +34,7 @@ Exit codes: 0 ok, 1 internal error, 2 usage, 3 unreadable input,
 @click.option("--picture", cls=GroupedOption, type=PATH, help="draw the mesh, as PNG; needs no screen")
 @config_option
 @quiet_option
-@setting_options("meshing", "normals", "denoising", "embedding", "particles", "refinement", "run")
+@setting_options("meshing", "cleaning", "normals", "denoising", "embedding", "particles", "refinement", "run")
 @click.pass_context
 def command(
     ctx: click.Context,

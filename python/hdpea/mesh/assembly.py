@@ -27,6 +27,7 @@ def assemble_mesh(
     options: Options | None = None,
     progress: ProgressCallback | None = None,
     clock: StageClock | None = None,
+    points_shown: int | None = None,
 ) -> Mesh:
     """Spread particles on an embedded surface, join them, fit the mesh to the points, and simplify it to its budget.
 
@@ -42,6 +43,8 @@ def assemble_mesh(
         Hears of the phases particles, meshing, refinement and simplification.
     clock
         Measures them as stages.
+    points_shown
+        How many evenly spread points would show as much: what the numbers go by; default: those of the surface.
 
     Raises
     ------
@@ -51,7 +54,8 @@ def assemble_mesh(
         If `progress` cancels.
     """
     options, clock = options or Options(), clock or StageClock()
-    mesh = _mesh_of_particles(surface, coordinates, bases, options, progress, clock)
+    points_shown = points_shown or len(surface.points_in_unit)
+    mesh = _mesh_of_particles(surface, coordinates, bases, options, points_shown, progress, clock)
     with clock.stage("refinement"):
         mesh = refine_mesh(mesh, surface, options.refinement, of_phase(progress, "refinement"))
     if Budget.of(options.meshing).excess(mesh) > 0:
@@ -67,13 +71,13 @@ def _mesh_of_particles(
     coordinates: NDArray[np.float64],
     bases: NDArray[np.float64],
     options: Options,
+    points_shown: int,
     progress: ProgressCallback | None,
     clock: StageClock,
 ) -> Mesh:
     """Spread particles and join them; where that makes too few vertices, spread more."""
-    points = len(surface.points_in_unit)
-    count = options.particles_of(points)
-    share_kept = options.vertices_of(points) / count
+    count = options.particles_of(points_shown)
+    share_kept = options.vertices_of(points_shown) / count
     attempts = list[Mesh]()
     while len(attempts) < ATTEMPTS:
         with clock.stage("particles"):
@@ -92,5 +96,5 @@ def _mesh_of_particles(
         excess = Budget.of(options.meshing).excess(attempts[-1])
         if excess >= 0:
             return attempts[-1]
-        count = min(round(count / (1 + excess)), points)
+        count = min(round(count / (1 + excess)), len(surface.points_in_unit))
     return max(attempts, key=lambda mesh: len(mesh.vertices_in_unit))

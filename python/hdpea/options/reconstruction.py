@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 from hdpea.errors import UsageError
 from hdpea.options.checked import Checked, option
+from hdpea.options.cleaning import CleaningOptions
 from hdpea.options.denoising import DenoisingOptions
 from hdpea.options.embedding import EmbeddingOptions
 from hdpea.options.meshing import POINTS_PER_VERTEX, MeshingOptions
@@ -19,6 +20,7 @@ from hdpea.options.refinement import RefinementOptions
 class Options(Checked):
     """All options of ``hdpea.reconstruct``."""
 
+    cleaning: CleaningOptions = CleaningOptions()
     normals: NormalOptions = NormalOptions()
     denoising: DenoisingOptions = DenoisingOptions()
     embedding: EmbeddingOptions = EmbeddingOptions()

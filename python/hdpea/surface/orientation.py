@@ -28,6 +28,14 @@ DEVIATIONS_WIDE = 1.6
 A smaller width resolves single points, and beside holes half of a thick shell of noise turns inwards (boot, noise of
 0.5 % of the diagonal); a larger one merges the two sides of a wall (goblet_top, as much noise, from 2.0 on)."""
 
+DECIDING = 50_000
+"""Most points that the sides are decided on; of more, the others follow the nearest of these.
+
+They are farthest points, and lie as evenly and twice as near to each other as the particles of most meshes."""
+
+FOLLOWED = 4
+"""Nearest deciding points of which the one whose plane is most nearly a point's own is followed: so a wall has two."""
+
 MOST_OF_WALLS = 0.15
 """Largest deviation, in spacings, that counts for the width where it is not noise: walls must keep two sides."""
 
@@ -127,6 +135,8 @@ def _by_best_method(
         return Orientation(
             by_file(points, directions, evidence), "file", f"{given:.0%} of neighbours agree on the side"
         )
+    if len(points) > DECIDING:
+        return _as_deciding_points(points, directions, evidence, progress)
     candidates = {
         "wnnc": by_winding_number(points, directions, evidence, progress),
         "mst": by_spanning_tree(points, directions, evidence),
@@ -139,6 +149,31 @@ def _by_best_method(
     best, other = ("wnnc", "mst") if agreed["wnnc"] >= agreed["mst"] else ("mst", "wnnc")
     why = f"{agreed[best]:.2%} of neighbours agree on the side, by {other} {agreed[other]:.2%}"
     return Orientation(candidates[best], best, why)
+
+
+def _as_deciding_points(
+    points: Vectors, directions: Vectors, evidence: SignEvidence, progress: Callable[[float], bool] | None
+) -> Orientation:
+    """Orient the points that lie farthest from each other, and all others as these are."""
+    first = int(np.argmax(np.square(points - points.mean(axis=0)).sum(axis=1)))
+    deciding = np.sort(_core.farthest_point_sampling(points, DECIDING, first))
+    few = np.ascontiguousarray(points[deciding])
+    neighbors = _core.nearest_neighbors(few, evidence.neighbors.shape[1])
+    # Their spacing is wider than that of all, so that in spacings they are less rough.
+    thinner = Roughness(
+        evidence.roughness.deviation * float(np.sqrt(DECIDING / len(points))), evidence.roughness.like_noise
+    )
+    known = SignEvidence(evidence.given[deciding], evidence.estimated[deciding], neighbors, thinner)
+    decided = _by_best_method(few, np.ascontiguousarray(directions[deciding]), known, progress)
+    return Orientation(_followed(points, directions, few, decided.normals), decided.method, decided.why)
+
+
+def _followed(points: Vectors, directions: Vectors, deciding: Vectors, normals: Vectors) -> Vectors:
+    """Turn the directions (n, 3) as the normals (m, 3) of the deciding points (m, 3) near them that are most alike."""
+    nearest = _core.nearest_neighbors(deciding, points, FOLLOWED)
+    alike = np.einsum("nc,nkc->nk", directions, normals[nearest])
+    best = abs(alike).argmax(axis=1)
+    return np.where(alike[np.arange(len(points)), best] < 0, -1, 1)[:, None] * directions
 
 
 def by_file(points: Vectors, directions: Vectors, evidence: SignEvidence) -> Vectors:

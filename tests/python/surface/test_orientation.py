@@ -12,6 +12,7 @@ from helpers import clouds
 from hdpea.errors import UnreadableInput, UsageError
 from hdpea.options import NormalOptions
 from hdpea.options.position import Position
+from hdpea.surface import orientation
 from hdpea.surface.normals import OrientedSurface, oriented_surface
 from hdpea.surface.orientation import cosines
 
@@ -59,6 +60,13 @@ def test_the_sides_of_a_wall_thinner_than_the_spacing_are_told_apart(noise: floa
     points, truth = clouds.box(6000, (1, 1, 0.7 * spacing))
     points = points + np.random.default_rng(3).normal(0, noise * spacing, points.shape)
     assert (cosines(oriented(points), truth) > 0).mean() > 0.96
+
+
+@pytest.mark.parametrize("shape", clouds.CLOSED)
+def test_some_points_decide_the_side_of_all(shape: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(orientation, "DECIDING", 1500)
+    points, truth = clouds.CLOSED[shape](6000)
+    assert (cosines(oriented(points, flipped_half(truth)), truth) > 0).mean() > 0.995
 
 
 @pytest.mark.parametrize("sign", [1, -1])

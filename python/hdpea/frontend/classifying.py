@@ -1,0 +1,81 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Everything that the front end finds out about a cloud."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from hdpea import _core
+from hdpea.errors import core_errors_translated
+from hdpea.frontend.evenness import Sampling, sampling_of
+from hdpea.frontend.strays import find_strays
+
+FEWEST_POINTS = 100
+"""Fewer are taken as they are: nothing can be said of how they are spread."""
+
+
+@dataclass(frozen=True)
+class Classified:
+    """What each point of a cloud is.
+
+    Attributes
+    ----------
+    strays
+        (n,) bool: points that lie on no surface.
+    kept
+        (n,) bool: points that show the surface as evenly as it was sampled: no strays, and of those that crowd on scan
+        lines only as many as are needed.
+    spacing
+        (n,) float64: how far apart the surface is sampled there, in the sparser direction; 0 where not known.
+    on_lines
+        Share of the points that lie on scan lines; 0 for an even cloud.
+    """
+
+    strays: NDArray[np.bool_]
+    kept: NDArray[np.bool_]
+    spacing: NDArray[np.float64]
+    on_lines: float
+
+    @property
+    def shown(self) -> int:
+        """How many points' worth of detail there is: twice those kept, if there are more."""
+        return min(int((~self.strays).sum()), 2 * int(self.kept.sum()))
+
+
+def classify(points: ArrayLike) -> Classified:
+    """Tell of distinct, finite points (n, 3) which are strays, which show the surface, and how densely.
+
+    Clouds of fewer than 100 points are taken as they are.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> flat = np.random.default_rng(0).random((2000, 3)) * [1, 1, 0]
+    >>> np.flatnonzero(classify(np.vstack([flat, [[0.5, 0.5, 1.0]]])).strays)
+    array([2000])
+    """
+    rows = np.ascontiguousarray(points, dtype=np.float64)
+    if len(rows) < FEWEST_POINTS:
+        nothing = np.zeros(len(rows), dtype=bool)
+        return Classified(nothing, ~nothing, np.zeros(len(rows)), 0.0)
+    # Differences of large coordinates lose digits, so the origin comes to the cloud first.
+    centered = rows - np.median(rows, axis=0)
+    with core_errors_translated():
+        # On lines nearly everything lies apart from the rest, until they are thinned.
+        sampling = sampling_of(centered)
+        standing = np.flatnonzero(sampling.kept)
+        strays = np.zeros(len(rows), dtype=bool)
+        strays[standing] = find_strays(np.ascontiguousarray(centered[standing]), sampling.on_lines > 0)
+        if not sampling.kept.all():
+            strays = _as_nearest(centered, sampling, strays)
+    return Classified(strays, sampling.kept & ~strays, sampling.spacing, sampling.on_lines)
+
+
+def _as_nearest(points: NDArray[np.float64], sampling: Sampling, strays: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """Return the strays (n,) among all points (n, 3), where what was not kept is what the nearest kept one is."""
+    standing = np.flatnonzero(sampling.kept)
+    nearest = _core.nearest_neighbors(np.ascontiguousarray(points[standing]), points, 1)[:, 0]
+    return strays[standing][nearest]

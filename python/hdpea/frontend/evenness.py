@@ -1,0 +1,127 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""How far apart a surface is sampled, and which points stand for it where they crowd on scan lines."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hdpea import _core
+
+NEAR, FAR = 3, 24
+"""Nearest points whose distances tell the dimension of what lies between: from beyond chance to beyond one line."""
+
+AVERAGED = 32
+"""Neighbours over which it is averaged, or chance would tell: their estimates spread by a tenth."""
+
+LINE_DIMENSION = 1.5
+"""Dimension under which points lie on lines: surfaces have 2.0, 1.4 by chance, noisy ones more, rings of 15:1 1.26.
+
+Of the points of 16 surfaces 0.3 % at most fell below, of rings 65 to 93 % (24 nearest points, noise of half a step)."""
+
+LEAST_SHARE = 0.1
+"""Least share of points on lines that makes a cloud uneven."""
+
+STEP = 2**0.5
+"""Ratio of the numbers of points from level to level."""
+
+SURROUNDING = 10
+"""Nearest points of a level whose disk tells how much surface each of them has for itself."""
+
+FEWEST = 200
+"""Points of the coarsest level: fewer say more about the shape than about its sampling."""
+
+COVERED = 2.5
+"""Area for each point, in squares of their least distance, under which a level covers the surface in all directions.
+
+Farthest points of an even cloud have 1.6 to 2.2; on lines it is 1.3 times the gap between them in steps along them."""
+
+KEPT_DETAIL = 7.0
+"""Area for each point, in the same squares, under which points are kept: five points along a line for each gap.
+
+Fewer lose detail, more are lines again: means of eight raw scans of rings, rms in 1e-3 of the diagonal, were 2.3, 2.1,
+1.9, 2.0 for 3.5, 5, 7 and 10, and 4.7 with all points kept."""
+
+
+@dataclass(frozen=True)
+class Sampling:
+    """How a surface is sampled.
+
+    Attributes
+    ----------
+    spacing
+        (n,) float64: how far apart points are in the sparser direction, the side of the square of surface that each has
+        for itself once the points on lines are no nearer to each other than the lines are.
+    kept
+        (n,) bool: the points that stand for all. The others lie between these on lines; all are kept of an even cloud.
+    on_lines
+        Share of the points that lie on lines: 0 for an even cloud.
+    """
+
+    spacing: NDArray[np.float64]
+    kept: NDArray[np.bool_]
+    on_lines: float
+
+
+def sampling_of(points: NDArray[np.float64]) -> Sampling:
+    """Find how densely points (n, 3), n > 24, sample their surface, and which are needed where they crowd on lines.
+
+    Lines are told by the local dimension (Levina and Bickel, "Maximum likelihood estimation of intrinsic dimension",
+    2004). Where many points lie on some, the cloud is looked at in levels, each its farthest points (Eldar et al.,
+    "The farthest point strategy for progressive image sampling", 1997), which have a least distance: on the first level
+    whose points have no more surface for themselves than this allows for, they surround each other on all sides. It
+    does not matter how dense lines are, nor whether they cross. Neither moving, turning nor scaling makes a difference.
+    """
+    on_lines = float((_dimension(points) < LINE_DIMENSION).mean())
+    if on_lines < LEAST_SHARE:
+        return Sampling(_even_spacing(points), np.ones(len(points), dtype=bool), 0.0)
+    # From the point farthest out, whichever row that is.
+    first = int(np.argmax(np.square(points - points.mean(axis=0)).sum(axis=1)))
+    order = _core.farthest_point_sampling(points, len(points), first)
+    rank = np.empty(len(points), dtype=np.int64)
+    rank[order] = np.arange(len(points))
+    spacing = np.zeros(len(points))
+    enough = np.zeros(len(points), dtype=np.int64)
+    count = round(len(points) / STEP)
+    while count >= FEWEST and (spacing == 0).any():
+        level = np.ascontiguousarray(points[order[:count]])
+        least = np.linalg.norm(level[:-1] - level[-1], axis=1).min()
+        share, own = _share_of(level, least)
+        at = _core.nearest_neighbors(level, points, 1)[:, 0]
+        enough[(enough == 0) & (share[KEPT_DETAIL][at] >= 0.5)] = count
+        covered = (spacing == 0) & (share[COVERED][at] >= 0.5)
+        spacing[covered] = own[at[covered]]
+        count = round(count / STEP)
+    # What is covered on no level, as wires are, stays as it is.
+    enough[enough == 0] = len(points)
+    spacing = np.where(spacing == 0, _even_spacing(points), spacing)
+    return Sampling(spacing, rank < enough, on_lines)
+
+
+def _dimension(points: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return the dimension (n,) of what points (n, 3) show around each."""
+    nearest = _core.nearest_neighbors(points, max(FAR, AVERAGED))
+    near, far = (np.linalg.norm(points[nearest[:, count - 1]] - points, axis=1) for count in (NEAR, FAR))
+    tiny = np.finfo(np.float64).tiny
+    growth = np.log(np.maximum(far, tiny) / np.maximum(near, tiny))
+    # What it is on a plane, on average: half the sum of 1 / k for k from NEAR to FAR - 1.
+    on_a_plane = (1 / np.arange(NEAR, FAR)).sum() / 2
+    return np.asarray(2 * on_a_plane / np.maximum(growth[nearest[:, :AVERAGED]].mean(axis=1), tiny))
+
+
+def _share_of(level: NDArray[np.float64], least: float) -> tuple[dict[float, NDArray[np.float64]], NDArray[np.float64]]:
+    """Return which share of the points around each of a level (m, 3) have so little surface, and the square's side."""
+    nearest = _core.nearest_neighbors(level, SURROUNDING)
+    area = np.pi * np.square(level[nearest[:, -1]] - level).sum(axis=1) / SURROUNDING
+    around = np.concatenate([np.arange(len(level))[:, None], nearest[:, :-2]], axis=1)
+    shares = {most: (area < most * least**2)[around].mean(axis=1) for most in (COVERED, KEPT_DETAIL)}
+    return shares, np.sqrt(np.median(area[around], axis=1))
+
+
+def _even_spacing(points: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return the side (n,) of the square of surface that each of evenly spread points (n, 3) has for itself."""
+    nearest = _core.nearest_neighbors(points, SURROUNDING)
+    area = np.pi * np.square(points[nearest[:, -1]] - points).sum(axis=1) / SURROUNDING
+    return np.asarray(np.sqrt(np.median(area[nearest], axis=1)))
