@@ -65,7 +65,7 @@ Coordinates tangent_bases(const CoordinatesRef& coordinates, const PointsRef& no
     const Plane plane = plane_across(normals.row(i).transpose());
     Eigen::MatrixXd tangents(2, d);
     tangents.leftCols<3>() = plane.transpose();
-    tangents.rightCols(d - 3) = fit_extra(coordinates, neighbors, i, plane);
+    if (d > 3) tangents.rightCols(d - 3) = fit_extra(coordinates, neighbors, i, plane);
     tangents.row(0).normalize();
     tangents.row(1) -= tangents.row(1).dot(tangents.row(0)) * tangents.row(0);
     tangents.row(1).normalize();
