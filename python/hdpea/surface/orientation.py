@@ -152,7 +152,7 @@ def _by_best_method(
 
 
 def _as_deciding_points(
-    points: Vectors, directions: Vectors, evidence: SignEvidence, progress: Callable[[float], bool] | None
+    points: Vectors, directions: Vectors, evidence: SignEvidence, progress: PhaseCallback | None
 ) -> Orientation:
     """Orient the points that lie farthest from each other, and all others as these are."""
     first = int(np.argmax(np.square(points - points.mean(axis=0)).sum(axis=1)))
