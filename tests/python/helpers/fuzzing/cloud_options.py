@@ -13,7 +13,15 @@ from hdpea.options.settings import Setting, settings
 
 Random = np.random.Generator
 
-OFTEN = {"vertices": 0.35, "faces": 0.15, "watertight": 0.3, "denoise": 0.3, "orient": 0.3, "min_component": 0.2}
+OFTEN = {
+    "outliers": 0.9,
+    "vertices": 0.35,
+    "faces": 0.15,
+    "watertight": 0.3,
+    "denoise": 0.3,
+    "orient": 0.3,
+    "min_component": 0.2,
+}
 """How often a setting is given; the others are in one case of twelve."""
 
 MOST = {"iterations": 20, "rounds": 4, "threads": 3, "normal_neighbors": 80, "denoise_neighbors": 120}
