@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from helpers.shapes import sphere
+from helpers.clouds import sphere_points
 from numpy.typing import NDArray
 
 from hdpea.frontend import classify
@@ -31,7 +31,7 @@ def with_strays(count: int) -> tuple[Points, Points]:
     """Return a sphere, and strays in the cube around it that lie off the sphere by more than four spacings."""
     places = np.random.default_rng(1).uniform(-1.5, 1.5, size=(4 * count, 3))
     off = abs(np.linalg.norm(places, axis=1) - 1) > 4 * np.sqrt(4 * np.pi / 4000)
-    return sphere(4000), places[off][:count]
+    return sphere_points(4000), places[off][:count]
 
 
 def rotation() -> Points:
@@ -39,7 +39,7 @@ def rotation() -> Points:
 
 
 def test_an_even_cloud_is_kept_as_it_is() -> None:
-    found = classify(sphere(4000))
+    found = classify(sphere_points(4000))
     assert found.strays.mean() <= 1e-3
     assert found.on_lines == 0
     assert np.array_equal(found.kept, ~found.strays)
@@ -57,7 +57,7 @@ def test_two_sides_of_a_thin_plate_are_surface() -> None:
 
 @pytest.mark.parametrize("far", [5.0, 100.0, 1e6])
 def test_one_stray_is_found_however_far_away(far: float) -> None:
-    found = classify(np.vstack([sphere(4000), [[far, 0, 0]]]))
+    found = classify(np.vstack([sphere_points(4000), [[far, 0, 0]]]))
     assert found.strays[-1]
     assert found.strays[:-1].mean() <= 1e-3
 
@@ -82,7 +82,7 @@ def test_of_points_on_lines_those_are_kept_that_the_gaps_need() -> None:
 
 
 def test_the_spacing_of_an_even_cloud_is_the_side_of_each_points_square() -> None:
-    assert np.median(classify(sphere(4000)).spacing) == pytest.approx(np.sqrt(4 * np.pi / 4000), rel=0.1)
+    assert np.median(classify(sphere_points(4000)).spacing) == pytest.approx(np.sqrt(4 * np.pi / 4000), rel=0.1)
 
 
 def test_wires_are_kept_whole() -> None:
@@ -105,7 +105,7 @@ def test_frame_unit_and_order_make_no_difference(kind: str) -> None:
 
 
 def test_few_points_are_taken_as_they_are() -> None:
-    found = classify(np.vstack([sphere(50), [[100.0, 0, 0]]]))
+    found = classify(np.vstack([sphere_points(50), [[100.0, 0, 0]]]))
     assert found.kept.all()
     assert not found.spacing.any()
 
