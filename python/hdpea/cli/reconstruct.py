@@ -1,5 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""``hdpea reconstruct``: the main job."""
+"""``hdpea reconstruct``: the main job.
+
+Most flags are fields of the options: a new one is a new field in ``hdpea/options``, in the module of its stage.
+"""
 
 from __future__ import annotations
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The scores of a result."""
+"""The scores of a result, as they are reported; ``distances`` and ``triangle_shapes`` compute them."""
 
 from __future__ import annotations
 

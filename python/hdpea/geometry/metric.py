@@ -20,6 +20,8 @@ LARGEST = 1e9
 class Metric:
     """How much curvature stretches lengths: s^2 = clamp(c |k|, 1, s_max^2) along each principal direction.
 
+    The core's solver applies the same formula: ``metric_excess`` in src/hdpea_cpp/embedding/embedding.cpp.
+
     Attributes
     ----------
     scale

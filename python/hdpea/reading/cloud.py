@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The point cloud as it comes out of a file, and what is thrown out on the way."""
+"""The point cloud as it comes out of a file, and what is dropped; the formats are listed in ``hdpea.reading``."""
 
 from __future__ import annotations
 

@@ -41,7 +41,8 @@ Eigen::Matrix<double, 5, 2> polar_factor(const Eigen::Matrix<double, 5, 2>& matr
   return matrix * sqrt_spd(gram).inverse();
 }
 
-/// M - I of a point as a symmetric tensor of R^3 that is zero along the normal.
+/// M - I of a point as a symmetric tensor of R^3 that is zero along the normal; the formula is that of Metric in
+/// python/hdpea/geometry/metric.py.
 Eigen::Matrix3d metric_excess(const PointsRef& normals, const Curvature& curvature, Index i,
                               const EmbeddingOptions& options) {
   const Eigen::Vector3d direction1 = curvature.direction1.row(i).transpose();
