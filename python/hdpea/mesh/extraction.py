@@ -84,7 +84,7 @@ def extract_mesh(
         smallest = float(radii.min()) * surface.frame.diagonal
         disks = Choice("disk_radius", smallest, "world units under the metric", why)
         limits = _core.ExtractionOptions()
-        limits.min_component_faces = round(options.min_component / share_kept)
+        limits.min_component_faces = min(round(options.min_component / share_kept), len(candidates.triangles))
         extracted = _core.extract_manifold(particles.coordinates, normals, radii, on_points, limits)
         if len(extracted.faces) == 0:
             raise CannotReconstruct(

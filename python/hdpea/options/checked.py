@@ -9,8 +9,8 @@ from typing import Any
 
 from hdpea.errors import UsageError
 
-LARGEST = 2**31 - 1
-"""Of whole numbers, unless an option says otherwise: more of anything is a slip."""
+LARGEST = 2**63 - 1
+"""Of whole numbers, unless an option says otherwise: the core holds no larger ones."""
 
 
 def option(default: Any, help: str, **metadata: Any) -> Any:

@@ -26,4 +26,4 @@ class ParticleOptions(Checked):
         minimum=4,
     )
     iterations: int = option(100, "steps of the particles' energy descent", minimum=0, maximum=100_000)
-    seed: int = option(0, "seed of everything random; the same seed gives the same bytes", minimum=0, maximum=2**63 - 1)
+    seed: int = option(0, "seed of everything random; the same seed gives the same bytes", minimum=0)
