@@ -20,6 +20,8 @@ settings.load_profile("hdpea")
 
 # Whatever a shell runs in the background ignores Ctrl-C, and so do its children: those that tests start must not.
 signal.signal(signal.SIGINT, signal.default_int_handler)
+# Nor SIGHUP, as what nohup runs does.
+signal.signal(signal.SIGHUP, signal.SIG_DFL)
 
 
 @pytest.fixture
