@@ -41,9 +41,9 @@ def command(
 ) -> None:
     """Run the methods of SUITE on points of true meshes, and evaluate and compare the results in OUT.
 
-    SUITE is quick, sampling, scans, robustness, normals, points, sizes, two_stage, roughness, large,
-    pmei, rooms (real clouds, half of whose points are held out as the truth) or failure, or a TOML
-    file of your own: inputs and how they are degraded, methods and their options, numbers of
+    SUITE is quick, sampling, scans, robustness, raw, normals, points, sizes, two_stage, roughness,
+    large, pmei, rooms (real clouds, half of whose points are held out as the truth) or failure, or a
+    TOML file of your own: inputs and how they are degraded, methods and their options, numbers of
     vertices. OUT gets results.csv, results.md, index.html with all tables and pictures in it, and
     the points and meshes themselves.
 

@@ -14,20 +14,17 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from hdpea import _core
 from hdpea.dataset.augmentation import random_rotation
 from hdpea.dataset.options import DegradationOptions
+from hdpea.dataset.outliers import draw_outliers
 from hdpea.dataset.sample import Sample
-from hdpea.errors import UsageError, core_errors_translated
+from hdpea.errors import UsageError
 
 SPARSE = 0.1
 """Share of the points that are kept where the density is lowest."""
 
 STRIPES = 8
 """Number of stripes along the longest axis, alternately dense and sparse."""
-
-OUTLIER_BOX = 1.2
-"""Size of the box in which outliers lie, relative to the bounding box of the points."""
 
 
 def degraded(sample: Sample, options: DegradationOptions) -> Sample:
@@ -97,16 +94,11 @@ def with_outliers(sample: Sample, share: float, rng: np.random.Generator) -> Sam
     The truth of an outlier is that of the point of the surface nearest to it; its sensor is kept. Only its distance
     from the surface marks it as an outlier.
     """
-    count = len(sample.points)
-    chosen = rng.choice(count, round(share * count), replace=False)
-    lowest, highest = sample.points.min(axis=0), sample.points.max(axis=0)
-    anywhere = (lowest + highest) / 2 + OUTLIER_BOX * (highest - lowest) * (rng.random((len(chosen), 3)) - 0.5)
-    truth = np.arange(count)
-    on_surface = sample.surface_points.astype(np.float64)
-    with core_errors_translated():
-        truth[chosen] = _core.nearest_neighbors(on_surface, anywhere.astype(np.float64), 1)[:, 0]
+    outliers = draw_outliers(sample.points, sample.surface_points, share, rng)
+    truth = np.arange(len(sample.points))
+    truth[outliers.rows] = outliers.nearest
     points = sample.points.copy()
-    points[chosen] = anywhere
+    points[outliers.rows] = outliers.places
     return replace(_at(sample, truth), points=points, sensors=sample.sensors)
 
 

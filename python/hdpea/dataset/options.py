@@ -71,21 +71,43 @@ class DegradationOptions(Checked):
 
 @dataclass(frozen=True)
 class ScanOptions(Checked):
-    """How a mesh is scanned by a simulated range sensor; lengths are shares of its bounding-box diagonal."""
+    """How a mesh is scanned by a simulated range sensor, and with which faults: 0 disables a fault.
+
+    Lengths are shares of the bounding-box diagonal of the mesh.
+    """
 
     points: int = option(40_000, "points to return", minimum=1)
     sensor: str = option(
         "views",
-        "views: a depth camera all around; turntable: a sensor above the horizon, the model rotating about z",
-        choices=("views", "turntable"),
+        "views: a depth camera all around; turntable: a sensor above the horizon, the model rotating about z; "
+        "lidar: at the sides, beams rotating about z, points dense along rings",
+        choices=("views", "turntable", "lidar"),
     )
     views: int = option(12, "positions of the sensor", minimum=1)
-    coverage: float = option(1.0, "share of all directions (turntable: of a turn) seen from", minimum=0.01, maximum=1)
+    coverage: float = option(
+        1.0, "share of all directions (turntable, lidar: of a turn) seen from", minimum=0.01, maximum=1
+    )
     distance: float = option(1.5, "from the sensor to the middle of the model", minimum=0.6)
+    ring_ratio: float = option(15.0, "times that points are denser along the rings of a lidar than across", minimum=1)
     noise: float = option(0.0005, "std of the range of a surface that faces the sensor, at that distance", minimum=0)
+    noise_growth: str = option(
+        "quadratic",
+        "how that noise grows with the range: quadratic, as of depth cameras; linear; none",
+        choices=("none", "linear", "quadratic"),
+    )
     grazing: float = option(
         75.0, "degrees between ray and normal beyond which fewer and fewer rays return", minimum=0, maximum=90
     )
+    flying: float = option(
+        0.0, "share of the pixels at jumps in depth that are measured behind the surface", minimum=0, maximum=1
+    )
+    flying_length: float = option(0.05, "how far behind it they are measured at most", minimum=0)
+    misrotated: float = option(
+        0.0, "degrees by which each view is rotated about the middle of the model", minimum=0, maximum=180
+    )
+    misplaced: float = option(0.0, "length by which each view is shifted, root mean square", minimum=0)
+    outliers: float = option(0.0, "share of the points that are moved to random places", minimum=0, maximum=1)
+    step: float = option(0.0, "step of the coordinates, which are rounded to multiples of it", minimum=0)
     seed: int = option(0, "seed of everything random; the same seed gives the same points", minimum=0)
 
 

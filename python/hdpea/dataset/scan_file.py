@@ -5,7 +5,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from hdpea.dataset.scanning import Scan
+from hdpea.dataset.scan import Scan
 from hdpea.geometry.unit_frame import UnitFrame
 from hdpea.runtime.outputs import check_output, replacing
 from hdpea.writing.meshes import point_ply

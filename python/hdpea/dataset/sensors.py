@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Positions of a simulated sensor, and the rays it casts."""
+"""Positions of a simulated sensor."""
 
 from __future__ import annotations
 
@@ -11,11 +11,8 @@ from hdpea.dataset.options import ScanOptions
 
 TAU = 2 * np.pi
 
-MODEL_RADIUS = 0.5
-"""Radius of the ball around the origin of the unit frame that contains the model: half its diagonal."""
-
-ELEVATIONS = (TAU / 24, TAU / 9, TAU / 6)
-"""Elevations of the turntable's sensor above the horizon; the underside of the model is never seen."""
+ELEVATIONS = {"turntable": (TAU / 24, TAU / 9, TAU / 6), "lidar": (-TAU / 18, 0.0, TAU / 18)}
+"""Elevations of sensors above the horizon. A turntable's never sees the underside of the model."""
 
 GOLDEN_ANGLE = TAU * (2 - (1 + 5**0.5) / 2)
 JITTER = 0.05
@@ -26,43 +23,18 @@ def sensor_positions(options: ScanOptions, rng: np.random.Generator) -> NDArray[
     """Return the positions (views, 3) of the sensor in the unit frame.
 
     ``views``: a Fibonacci spiral on the sphere, or on a cap of it around a random direction if the coverage is less
-    than 1. ``turntable``: at each of the elevations in turn while the model rotates, starting at a random angle.
+    than 1. ``turntable``, ``lidar``: at each of the elevations in turn, along a circle that starts at a random angle.
     """
     each = np.arange(options.views)
-    if options.sensor == "turntable":
+    if options.sensor in ELEVATIONS:
         azimuth = TAU * (options.coverage * each / options.views + rng.random())
-        elevation = np.resize(ELEVATIONS, options.views)
+        elevation = np.resize(ELEVATIONS[options.sensor], options.views)
         directions = _on_sphere(azimuth, np.sin(elevation))
     else:
         height: NDArray[np.float64] = 1 - 2 * options.coverage * (each + 0.5) / options.views
         directions = _on_sphere(GOLDEN_ANGLE * each.astype(np.float64), height) @ random_rotation(rng).T
     directions += JITTER * rng.standard_normal(directions.shape)
     return options.distance * _unit(directions)
-
-
-def camera_rays(position: NDArray[np.float64], resolution: int, roll: float) -> NDArray[np.float64]:
-    """Return unit directions (r, 3) from `position` (3,): a square grid of pixels, cropped to the disk of the model.
-
-    Parameters
-    ----------
-    position
-        Position of the camera, which looks at the origin.
-    resolution
-        Pixels across the grid.
-    roll
-        Rotation of the camera about its axis, in radians.
-    """
-    distance = float(np.linalg.norm(position))
-    forward = -position / distance
-    aside = np.cross(forward, np.eye(3)[np.argmin(abs(forward))])
-    aside /= np.linalg.norm(aside)
-    right = np.cos(roll) * aside + np.sin(roll) * np.cross(forward, aside)
-    across = (np.arange(resolution) + 0.5) * 2 / resolution - 1
-    x, y = (grid.ravel() for grid in np.meshgrid(across, across))
-    seen = x**2 + y**2 <= 1
-    opening = MODEL_RADIUS / (distance**2 - MODEL_RADIUS**2) ** 0.5  # tangent of half the angle of view
-    plane = np.outer(x[seen], right) + np.outer(y[seen], np.cross(forward, right))
-    return _unit(forward + opening * plane)
 
 
 def _on_sphere(azimuth: NDArray[np.float64], height: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -98,6 +98,22 @@ def test_a_scan_as_ply_can_be_reconstructed_and_knows_its_sensors(tmp_path: Path
     assert (np.einsum("nc,nc->n", scan.normals, sensors - scan.points) > 0).all()
 
 
+def test_a_scan_with_faults_keeps_the_sensor_of_each_point(tmp_path: Path) -> None:
+    trimesh.creation.icosphere(subdivisions=3).export(tmp_path / "ball.ply")
+    arguments = ["dataset", "scan", str(tmp_path / "ball.ply"), "--quiet", "--points", "1000", "--sensor", "lidar"]
+    read = {}
+    for name, faults in {
+        "clean": [],
+        "faulty": ["--outliers", "5%", "--step", "0.1%", "--noise-growth", "linear"],
+    }.items():
+        assert run([*arguments, str(tmp_path / f"{name}.ply"), *faults]) == 0
+        read[name] = read_points(tmp_path / f"{name}.ply")
+    assert (abs(np.linalg.norm(read["faulty"].points, axis=1) - 1) > 0.1).sum() == pytest.approx(50, abs=15)
+    for axis in "xyz":
+        sensors = (read[name].attributes[f"sensor_{axis}"] for name in ("clean", "faulty"))
+        np.testing.assert_array_equal(*sensors)
+
+
 def test_what_cannot_be_scanned_is_told(tmp_path: Path, failed: Failed) -> None:
     open_mesh(tmp_path / "open.ply")
     assert "3 edges at holes" in failed(4, "dataset", "scan", tmp_path / "open.ply", tmp_path / "scan.ply")

@@ -13,7 +13,8 @@ from helpers import meshes
 from hdpea import _core
 from hdpea.dataset import raycasting
 from hdpea.dataset.options import ScanOptions
-from hdpea.dataset.scanning import Scan, scan_surface
+from hdpea.dataset.scan import Scan
+from hdpea.dataset.scanning import scan_surface
 from hdpea.dataset.sensors import sensor_positions
 from hdpea.errors import CannotReconstruct, UsageError
 

@@ -17,6 +17,8 @@ Examples:
   hdpea dataset scan bunny.ply scan.ply --sensor turntable --views 8
   hdpea reconstruct scan.ply mesh.obj
   hdpea dataset scan bunny.ply sample.npz --noise 0.002 --seed 7
+  hdpea dataset scan bunny.ply frames.ply --views 8 --flying 50% --misrotated 0.2 --misplaced 0.2%
+  hdpea dataset scan bunny.ply rings.ply --sensor lidar --views 3 --outliers 0.5%
 """
 
 
@@ -31,6 +33,9 @@ def command(mesh: Path, output: Path, quiet: bool, **values: Any) -> None:
     OUT is PLY or NPZ. PLY holds the points in the coordinates of the mesh, with the normals of its
     faces and, as sensor_x, sensor_y and sensor_z, the position of the sensor; reconstruct takes it. NPZ
     is a sample, with the ground truth at every point, which takes longer.
+
+    Faults of real scanners are off unless asked for: pixels that fly off edges, views that are
+    badly registered, outliers, coordinates in steps. The truth stays that of the surface.
 
     Lengths are shares of the diagonal of the mesh's bounding box, or spacings
     (sqrt(area / vertices)) where it says so.
