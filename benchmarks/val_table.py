@@ -58,10 +58,15 @@ class Task:
 
 
 def load_metrics(baselines: Path) -> ModuleType:
-    """Import the baselines' `metrics.py`, which is in no package."""
-    metrics = ModuleType("metrics")
-    SourceFileLoader("metrics", str(baselines / "metrics.py")).exec_module(metrics)
-    return metrics
+    """Import the baselines' `metrics.py`."""
+    return load_script(baselines / "metrics.py")
+
+
+def load_script(path: Path) -> ModuleType:
+    """Import a script that is in no package."""
+    script = ModuleType(path.stem)
+    SourceFileLoader(path.stem, str(path)).exec_module(script)
+    return script
 
 
 def read_mesh(path: Path) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
