@@ -20,6 +20,7 @@ import time
 import zlib
 from dataclasses import dataclass
 from functools import partial
+from importlib.util import find_spec
 from pathlib import Path
 from types import ModuleType
 from typing import Any
@@ -168,10 +169,8 @@ def main(
         return [kept(save, f"{task.path.stem}-{task.kind}-{peer}", partial(measure, raw, task, peer)) for task in tasks]
 
     if plain == "run":
-        try:
-            import open3d as _  # noqa: F401
-        except ModuleNotFoundError as error:
-            raise click.UsageError("Open3D is not installed: pip install open3d-cpu, or give a CSV.") from error
+        if find_spec("open3d") is None:
+            raise click.UsageError("Open3D is not installed: pip install open3d-cpu, or give a CSV.")
         others = measured(PLAIN)
     else:
         others = read_rows(Path(plain) if plain else baselines / "raw.csv")

@@ -85,10 +85,12 @@ def command(
         if report:
             result.report.write(report)
         if picture:
-            from hdpea.pictures.picture import draw_mesh
+            from hdpea.pictures.camera import mean_sight
+            from hdpea.pictures.picture import Camera, draw_mesh
 
             tell(progress, "picture", 0.0)
-            draw_mesh(picture, result.vertices, result.faces)
+            camera = Camera.before(result.vertices, result.faces, mean_sight(cloud.points, cloud.sensors()))
+            draw_mesh(picture, result.vertices, result.faces, camera=camera)
     if not quiet:
         from hdpea.report.summary import summarize
 

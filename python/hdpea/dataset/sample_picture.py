@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from hdpea.dataset.options import GroundTruthOptions
 from hdpea.dataset.quality import spacing_of, stretches
 from hdpea.dataset.sample import Sample
-from hdpea.pictures.camera import choose_view_of_points
+from hdpea.pictures.camera import choose_view_of_points, mean_sight
 from hdpea.pictures.colors import MOST_ANISOTROPIC, Colors, as_bytes, ratio_colors
 from hdpea.pictures.picture import drawn_to, look_at, point_size
 
@@ -39,7 +39,8 @@ def draw_sample(path: Path, sample: Sample, options: GroundTruthOptions | None =
     UsageError
         If nothing can be drawn on this machine, or the file cannot be written.
     """
-    view_from_unit = choose_view_of_points(sample.points.astype(np.float64), sample.normals.astype(np.float64))
+    sight = mean_sight(sample.points, sample.sensors)
+    view_from_unit = choose_view_of_points(sample.points.astype(np.float64), sample.normals.astype(np.float64), sight)
     points = sample.points @ view_from_unit.T
     facing = (sample.normals @ view_from_unit.T)[:, 2] > 0
     options = options or GroundTruthOptions()

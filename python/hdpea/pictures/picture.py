@@ -123,9 +123,11 @@ class Camera:
     size: NDArray[np.float64]
 
     @classmethod
-    def before(cls, vertices: NDArray[np.float64], faces: NDArray[np.int64]) -> Camera:
-        """Look at a mesh (v, 3), (f, 3) obliquely, from the side that most of it faces."""
-        return cls._towards(vertices, choose_view(vertices, faces))
+    def before(
+        cls, vertices: NDArray[np.float64], faces: NDArray[np.int64], sight: NDArray[np.float64] | None = None
+    ) -> Camera:
+        """Look at a mesh (v, 3), (f, 3) obliquely, from the side that was scanned, as ``choose_view`` says."""
+        return cls._towards(vertices, choose_view(vertices, faces, sight))
 
     @classmethod
     def before_points(cls, points: NDArray[np.float64], normals: NDArray[np.float64]) -> Camera:
@@ -153,7 +155,7 @@ def draw_mesh(
     camera: Camera | None = None,
     colors: NDArray[np.uint8] | None = None,
 ) -> None:
-    """Draw the surface with its edges, seen obliquely from the side that most of it faces.
+    """Draw the surface with its edges, seen obliquely from the side that was scanned.
 
     Back sides are drawn in another colour, so that open and inverted parts show.
 
@@ -168,7 +170,7 @@ def draw_mesh(
     size
         Width and height in pixels.
     camera
-        That of another mesh, to compare both.
+        Where to look from; by default as ``Camera.before`` chooses for the mesh alone.
     colors
         (v, 3), red, green and blue of the vertices, in place of the colour of the side and of the edges.
 

@@ -10,7 +10,6 @@ from numpy.typing import NDArray
 
 from hdpea.errors import UsageError
 from hdpea.pictures import picture
-from hdpea.pictures.camera import choose_view
 from hdpea.pictures.picture import Camera, check_drawing, draw_mesh, draw_points
 
 Mesh = tuple[NDArray[np.float64], NDArray[np.int64]]
@@ -19,13 +18,6 @@ Mesh = tuple[NDArray[np.float64], NDArray[np.int64]]
 def box(size: tuple[float, float, float]) -> Mesh:
     mesh = trimesh.creation.box(size)
     return np.asarray(mesh.vertices), np.asarray(mesh.faces)
-
-
-def cone(up: int) -> Mesh:
-    """Return a cone standing on its base, whose axis is coordinate axis `up`."""
-    mesh = trimesh.creation.cone(0.5, 1.0)
-    vertices = np.asarray(mesh.vertices) if up == 2 else np.asarray(mesh.vertices)[:, [1, 2, 0]]
-    return vertices, np.asarray(mesh.faces)
 
 
 def drawn(path: Path, mesh: Mesh, points: NDArray[np.float64] | None = None) -> NDArray[np.float64]:
@@ -61,18 +53,6 @@ def test_points_are_drawn_over_the_mesh(tmp_path: Path) -> None:
     assert (bare != dotted).any()
 
 
-@pytest.mark.parametrize("up", [1, 2])
-def test_a_shape_stands_on_its_base(up: int) -> None:
-    view_from_world = choose_view(*cone(up))
-    np.testing.assert_allclose(view_from_world @ view_from_world.T, np.eye(3), atol=1e-12)
-    assert view_from_world[1, up] > 0.8
-
-
-def test_an_open_scan_is_seen_from_the_side_it_faces() -> None:
-    vertices = np.array([[0.0, 0, 0], [0, 0, 1], [1, 0, 0]])  # a wall facing y
-    assert choose_view(vertices, np.array([[0, 1, 2]]))[2, 1] > 0.7
-
-
 @pytest.mark.slow
 def test_points_are_drawn_in_their_colours_where_a_mesh_of_them_would_be(tmp_path: Path) -> None:
     vertices, faces = box((1, 1, 1))
@@ -88,16 +68,6 @@ def test_points_are_drawn_in_their_colours_where_a_mesh_of_them_would_be(tmp_pat
     covered = [(pixels < 250).any(axis=2) for pixels in (points, mesh)]
     assert (covered[0] & covered[1]).sum() > 0.85 * (covered[0] | covered[1]).sum()
     np.testing.assert_allclose(points[75, 100], [10, 200, 30], atol=2)
-
-
-def test_points_are_looked_at_as_their_mesh_is() -> None:
-    vertices = np.array([[0.0, 0, 0], [0, 0, 1], [1, 0, 0]])
-    mesh, points = (
-        Camera.before(vertices, np.array([[0, 1, 2]])),
-        Camera.before_points(vertices, np.tile([0.0, 1, 0], (3, 1))),
-    )
-    np.testing.assert_allclose(points.view_from_world, mesh.view_from_world, atol=1e-12)
-    np.testing.assert_allclose(points.to_view(vertices), mesh.to_view(vertices), atol=1e-12)
 
 
 def test_missing_pyvista_says_how_to_get_it(monkeypatch: pytest.MonkeyPatch) -> None:
