@@ -30,6 +30,7 @@ from hdpea.reading.cloud import PointCloud, cleaned_cloud
 from hdpea.runtime.progress import ProgressCallback, tell
 from hdpea.runtime.threads import limited_threads
 from hdpea.surface.normals import ORIENTATION_NEIGHBORS
+from hdpea.surface.plausibility import are_normals
 from hdpea.surface.preparation import prepare_surface
 from hdpea.surface.roughness import roughness_of
 from hdpea.surface.surface import Surface
@@ -101,15 +102,24 @@ def _resolution(points: int, vertices: int | None) -> tuple[int, NDArray[np.int6
 
 def _fitting_of_normals(cloud: PointCloud, options: CurvatureOptions) -> tuple[NormalOptions, tuple[Choice, ...]]:
     """Fit normals to more neighbours the noisier the cloud is: curvature, their derivative, amplifies noise."""
-    given = cloud.normals is not None and cloud.normals.any(axis=1).all() and options.normals.normals != "estimate"
-    if given or options.normals.normal_neighbors is not None or options.estimation.method == "jet":
+    if options.normals.normal_neighbors is not None or options.estimation.method == "jet":
         return options.normals, ()
-    roughness = roughness_of(cloud.points - cloud.points.mean(axis=0))
+    centered = cloud.points - cloud.points.mean(axis=0)
+    if _all_given(cloud, centered, options.normals):
+        return options.normals, ()
+    roughness = roughness_of(centered)
     count = min(round(NORMAL_NEIGHBORS_PER_NOISE * roughness.noise), MOST_NORMAL_NEIGHBORS)
     if count <= ORIENTATION_NEIGHBORS:
         return options.normals, ()
     choice = Choice("normal_neighbors", count, "points", str(roughness))
     return replace(options.normals, normal_neighbors=count), (choice,)
+
+
+def _all_given(cloud: PointCloud, centered: NDArray[np.float64], options: NormalOptions) -> bool:
+    """Return whether no normal will be estimated."""
+    if cloud.normals is None or options.normals == "estimate" or not cloud.normals.any(axis=1).all():
+        return False
+    return options.normals == "file" or are_normals(centered, cloud.normals)
 
 
 def _at_all_points(

@@ -16,7 +16,8 @@ class NormalOptions(Checked):
 
     normals: str = option(
         "auto",
-        "auto: the file's where they are usable, else estimated; file: the file's or fail; estimate: always estimate",
+        "auto: the file's where they are usable, else estimated; all estimated if the file's do not lie across the "
+        "surface; file: the file's or fail; estimate: always estimate",
         choices=("auto", "file", "estimate"),
     )
     normal_neighbors: int | None = option(

@@ -15,6 +15,7 @@ from hdpea.options import NormalOptions
 from hdpea.options.choice import Choice
 from hdpea.runtime.progress import ProgressCallback, of_phase, tell
 from hdpea.surface.orientation import SignEvidence, Vectors, orient, require_signs
+from hdpea.surface.plausibility import are_normals
 from hdpea.surface.roughness import Roughness, roughness_of
 from hdpea.surface.surface import NEIGHBORS, Surface, require_surface
 
@@ -41,6 +42,8 @@ class OrientedSurface:
         Share of neighbours whose given normals agreed in orientation; None without given normals.
     reoriented
         Whether the orientation was computed, whatever the given normals say.
+    refused
+        Whether directions were given that are no normals, so that these were estimated instead.
     choices
         What was chosen automatically.
     """
@@ -50,6 +53,7 @@ class OrientedSurface:
     estimated: int
     consistency: float | None
     reoriented: bool
+    refused: bool = False
     choices: tuple[Choice, ...] = ()
 
 
@@ -64,8 +68,8 @@ def oriented_surface(
     """Move a cloud to its unit frame and give it consistently oriented normals.
 
     Given normals keep their directions; their signs are kept only if neighbours agree about them, so a
-    cloud whose normals point to both sides gives the same surface as one that is well oriented. The option
-    `orient` overrules this.
+    cloud whose normals point to both sides gives the same surface as one that is well oriented. Given directions that
+    do not lie across the surface are not taken for normals. The options `orient` and `normals` overrule this.
 
     Parameters
     ----------
@@ -106,6 +110,9 @@ def oriented_surface(
         neighbors = _core.nearest_neighbors(points, NEIGHBORS)
         nearest = np.ascontiguousarray(neighbors[:, :ORIENTATION_NEIGHBORS])
         roughness = roughness_of(points)
+        refused = options.normals == "auto" and not are_normals(points, given)
+        if refused:
+            usable[:] = False
         directions, choices = _directions(points, given, usable, neighbors, roughness, options, points_per_vertex)
         # Where all normals are to be estimated, the signs of given ones count only if they are asked for.
         trusted = given if options.orient == "file" else np.where(usable[:, None], given, 0)
@@ -118,7 +125,7 @@ def oriented_surface(
     tell(progress, "normals", 1)
     surface = Surface.of(frame, points, orientation.normals, neighbors)
     reoriented = orientation.method != "file"
-    return OrientedSurface(surface, roughness, int((~usable).sum()), consistency, reoriented, choices)
+    return OrientedSurface(surface, roughness, int((~usable).sum()), consistency, reoriented, refused, choices)
 
 
 def _seen_from(frame: UnitFrame, sensors_in_world: Vectors | None, options: NormalOptions) -> Vectors | None:

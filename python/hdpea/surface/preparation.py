@@ -81,7 +81,9 @@ def prepare_surface(
 
 def _notes(cloud: PointCloud, oriented: OrientedSurface) -> list[str]:
     notes = []
-    if oriented.estimated > cloud.unusable_normals:
+    if oriented.refused:
+        notes.append("The given normals do not lie across the surface of the points: they were estimated instead.")
+    elif oriented.estimated > cloud.unusable_normals:
         notes.append(f"Normals of {oriented.estimated:,} points were estimated.")
     if oriented.reoriented and oriented.consistency is not None and oriented.consistency < TRUSTED_CONSISTENCY:
         share = f"{oriented.consistency:.0%} of neighbours agreed"

@@ -1,0 +1,59 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Whether directions that came with points are normals at all: colours, labels and lines of sight may pass for some."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hdpea import _core
+
+SAMPLES = 2_000
+"""Points at which it is looked."""
+
+SCALES = (6, 16, 48, 150)
+"""Nearest points along which they are compared: few where the surface is thin, many where it is rough."""
+
+MOST_VARIANCE = 0.8
+"""Variance along the directions, relative to that along random ones, from which they are no normals.
+
+Of 50 training meshes and the 20 of validation, 1,000 to 60,000 points with noise of 0 to 1 % of the diagonal: true
+normals have 0.13 in the median and 0.71 at most (a lattice of 1,000 points), random directions 0.95 or more, unit
+vectors by label 0.94, lines of sight 0.99 in the median. These have less where all is flat and faces the sensor, and do
+no harm there."""
+
+
+def are_normals(points: NDArray[np.float64], directions: NDArray[np.float64]) -> bool:
+    """Tell whether directions lie across the surface that the points show.
+
+    Along a normal the nearest points vary least, along a random direction as much as on average. Their variance is
+    compared at several scales, of which the one that speaks most for the directions counts.
+
+    Parameters
+    ----------
+    points
+        (n, 3), distinct.
+    directions
+        (n, 3) of length 1 and any sign, or 0 where there is none.
+    """
+    rows = np.flatnonzero(directions.any(axis=1))
+    scales = [count for count in SCALES if count < len(points)]
+    if not len(rows) or not scales:
+        return True
+    rows = rows[np.linspace(0, len(rows) - 1, min(SAMPLES, len(rows))).astype(np.int64)]
+    nearest = _core.nearest_neighbors(points, np.ascontiguousarray(points[rows]), scales[-1])
+    return min(_variance_along(directions[rows], points[nearest[:, :count]]) for count in scales) < MOST_VARIANCE
+
+
+def _variance_along(directions: NDArray[np.float64], around: NDArray[np.float64]) -> float:
+    """Return the variance of points (m, k, 3) along directions (m, 3): 0 is the least there is, 1 that at random."""
+    offsets = around - around.mean(axis=1, keepdims=True)
+    scatter = offsets.swapaxes(1, 2) @ offsets
+    total = np.trace(scatter, axis1=1, axis2=2)
+    # Neighbourhoods count alike, whatever their size; those of points that are equal in the unit frame, not at all.
+    scatter /= np.where(total > 0, total, 1)[:, None, None]
+    least = np.linalg.eigvalsh(scatter)[:, 0]
+    along = np.einsum("nc,ncd,nd->n", directions, scatter, directions)
+    random = np.trace(scatter, axis1=1, axis2=2) / 3
+    excess = float((random - least).sum())
+    return float((along - least).sum()) / excess if excess > 0 else 0.0
