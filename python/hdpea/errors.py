@@ -46,7 +46,7 @@ class CannotReconstruct(HdpeaError):
 
 
 class QualityMissed(HdpeaError):
-    """The mesh was made and written, but is not what was asked for."""
+    """The mesh was made and written, but is not what was asked for, or not what the points show."""
 
     exit_code = 5
 

@@ -17,6 +17,7 @@ from hdpea.mesh.budget import particles_wanted
 from hdpea.options import Length, Options
 from hdpea.options.settings import changed
 from hdpea.reading.cloud import PointCloud, cleaned_cloud
+from hdpea.report.agreement import agreement_of
 from hdpea.report.measurement import distances_to, mesh_facts, missed_targets
 from hdpea.report.report import Journal, Report
 from hdpea.runtime.progress import ProgressCallback, tell
@@ -166,12 +167,13 @@ def reconstruct(
             tell(progress, "measuring", 0)
             facts = mesh_facts(mesh)
             distances = distances_to(mesh, prepared.oriented.surface)
+            agreement = agreement_of(mesh, surface, options.vertices_of(found.points_shown))
             tell(progress, "measuring", 1)
     journal.source["format"] = cloud.format
     journal.counts |= cloud.counts() | found.counts() | {"normals_estimated": prepared.oriented.estimated}
     journal.choices += [*prepared.choices, *count_choices, *embedded.choices, *mesh.choices]
     journal.meshing |= mesh.statistics
     journal.notes += [*cloud.notes, *found.notes, *prepared.notes]
-    journal.missed += missed_targets(mesh, facts, options.meshing)
+    journal.missed += [*missed_targets(mesh, facts, options.meshing), *agreement.missed()]
     vertices_in_world = surface.frame.to_world(mesh.vertices_in_unit)
-    return Reconstruction(vertices_in_world, mesh.faces, Report.of(journal, facts, distances))
+    return Reconstruction(vertices_in_world, mesh.faces, Report.of(journal, facts, distances, agreement))

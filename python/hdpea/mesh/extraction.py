@@ -43,6 +43,8 @@ class Mesh:
         Counts of candidate triangles and holes by name, before any simplification.
     choices
         The lengths that were chosen automatically, in world units.
+    patches
+        (k, 3, 3) float64: the corners of the triangles that close holes, as they were before any fit.
     """
 
     vertices_in_unit: NDArray[np.float64]
@@ -50,6 +52,7 @@ class Mesh:
     coordinates: NDArray[np.float64]
     statistics: dict[str, int | float] = field(default_factory=dict)
     choices: tuple[Choice, ...] = ()
+    patches: NDArray[np.float64] = field(default_factory=lambda: np.empty((0, 3, 3)))
 
 
 def extract_mesh(
@@ -117,4 +120,6 @@ def _fill_holes(
     statistics["holes_left"] = filled.left
     statistics["faces_joined"] = len(filled.faces)
     centres = _core.nearest_neighbors(vertices, filled.vertices[len(vertices) :], 1)[:, 0]
-    return Mesh(filled.vertices, filled.faces, np.vstack([coordinates, coordinates[centres]]), statistics, choices)
+    patches = filled.vertices[filled.faces[len(extracted.faces) :]]
+    coordinates = np.vstack([coordinates, coordinates[centres]])
+    return Mesh(filled.vertices, filled.faces, coordinates, statistics, choices, patches)

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from hdpea.options import Options
 from hdpea.options.choice import Choice
 from hdpea.options.settings import as_dict
+from hdpea.report.agreement import Agreement
 from hdpea.runtime.clock import StageClock
 from hdpea.runtime.outputs import replacing
 from hdpea.version import version
@@ -104,12 +105,13 @@ class Report(Journal):
 
     mesh: MeshFacts
     distances: Distances
+    agreement: Agreement
 
     @classmethod
-    def of(cls, journal: Journal, mesh: MeshFacts, distances: Distances) -> Report:
+    def of(cls, journal: Journal, mesh: MeshFacts, distances: Distances, agreement: Agreement) -> Report:
         """Close the journal; both go on sharing its lists and its clock."""
         taken_down = {each.name: getattr(journal, each.name) for each in fields(journal)}
-        return cls(**taken_down, mesh=mesh, distances=distances)
+        return cls(**taken_down, mesh=mesh, distances=distances, agreement=agreement)
 
     def begin_with(self, name: str, clock: StageClock) -> None:
         """Put the reading of the input, and what it took, before everything else."""
@@ -127,6 +129,7 @@ class Report(Journal):
             "meshing": self.meshing,
             "mesh": asdict(self.mesh),
             "distances": self.distances.as_dict(),
+            "agreement": asdict(self.agreement),
             "notes": self.notes,
             "missed": self.missed,
             "stages": [asdict(stage) for stage in self.clock.stages],

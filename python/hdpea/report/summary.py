@@ -37,7 +37,11 @@ def _mesh(mesh: MeshFacts) -> str:
         "closed" if mesh.closed else _count(mesh.boundary_loops, "boundary loop", "boundary loops"),
         _count(mesh.components, "component", "components"),
     ]
-    return "mesh: " + ", ".join(facts + ([] if mesh.genus is None else [f"genus {mesh.genus}"]))
+    if mesh.genus is not None:
+        facts.append(f"genus {mesh.genus}")
+    if mesh.self_intersections:
+        facts.append(_count(mesh.self_intersections, "self-intersection", "self-intersections"))
+    return "mesh: " + ", ".join(facts)
 
 
 def _count(number: int, one: str, many: str) -> str:

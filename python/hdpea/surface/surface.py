@@ -69,7 +69,12 @@ def median_spacing(points: NDArray[np.float64], neighbors: NDArray[np.int64]) ->
 
 
 def area_shown(points: NDArray[np.float64], neighbors: NDArray[np.int64]) -> float:
-    """Return the area of the surface that points (n, 3) show, to some percent; `neighbors` (n, k) as in ``Surface``.
+    """Return the area of the surface that points (n, 3) show, to some percent; `neighbors` (n, k) as in ``Surface``."""
+    return float(areas_shown(points, neighbors).sum())
+
+
+def areas_shown(points: NDArray[np.float64], neighbors: NDArray[np.int64]) -> NDArray[np.float64]:
+    """Return the area (n,) of the surface that each of the points (n, 3) has for itself.
 
     It is estimated from the nearest ``AREA_NEIGHBORS``: the disk out to the k-th neighbour of a point holds the area
     of k points, at any density.
@@ -78,7 +83,7 @@ def area_shown(points: NDArray[np.float64], neighbors: NDArray[np.int64]) -> flo
     known = neighbors >= 0
     offsets = np.where(known[:, :, None], points[neighbors] - points[:, None], 0)
     squared_radii = np.einsum("nkc,nkc->nk", offsets, offsets).max(axis=1)
-    return float((np.pi * squared_radii / np.maximum(known.sum(axis=1), 1)).sum())
+    return np.asarray(np.pi * squared_radii / np.maximum(known.sum(axis=1), 1))
 
 
 def require_surface(points_in_unit: NDArray[np.float64]) -> None:

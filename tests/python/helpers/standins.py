@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from hdpea.options import Options
 from hdpea.options.choice import Choice
 from hdpea.reading.cloud import PointCloud
+from hdpea.report.agreement import Agreement
 from hdpea.report.report import Distances, Journal, MeshFacts, Report
 from hdpea.runtime.progress import ProgressCallback, tell
 
@@ -50,7 +51,7 @@ def reconstruct(cloud: PointCloud, options: Options, progress: ProgressCallback 
     journal.choices.append(Choice("vertices", 3, "", "the smallest mesh"))
     if options.meshing.watertight:
         journal.missed.append("The mesh has 1 hole.")
-    report = Report.of(journal, ONE_TRIANGLE, Distances.of(np.zeros(1), spacing=1.0))
+    report = Report.of(journal, ONE_TRIANGLE, Distances.of(np.zeros(1), spacing=1.0), Agreement(0.0, 0.0))
     return Reconstruction(cloud.points[:3], np.array([[0, 1, 2]]), report)
 
 

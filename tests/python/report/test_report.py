@@ -11,6 +11,7 @@ import pytest
 
 from hdpea.options import Options, ParticleOptions
 from hdpea.options.choice import Choice
+from hdpea.report.agreement import Agreement
 from hdpea.report.report import Distances, Journal, MeshFacts, Report
 from hdpea.report.summary import summarize
 
@@ -20,7 +21,7 @@ SPHERE = MeshFacts(
 
 
 def report_of(journal: Journal, facts: MeshFacts = SPHERE) -> Report:
-    return Report.of(journal, facts, Distances.of(np.array([0.0, 3.0, 4.0]), spacing=0.5))
+    return Report.of(journal, facts, Distances.of(np.array([0.0, 3.0, 4.0]), spacing=0.5), Agreement(0.02, 0.01))
 
 
 def filled() -> Report:
@@ -47,6 +48,7 @@ def test_everything_is_in_the_file(tmp_path: Path) -> None:
     assert content["choices"][0]["why"] == "twice the vertex spacing"
     assert content["meshing"] == {"t3": 10_000}
     assert content["mesh"]["genus"] == 0
+    assert content["agreement"] == {"points_without_mesh": 0.02, "area_without_points": 0.01}
     assert content["notes"] == ["12 points were dropped."]
     assert [stage["name"] for stage in content["stages"]] == ["embedding"]
     assert content["total"]["peak_bytes"] > 0
@@ -78,5 +80,9 @@ def test_summary_is_short_and_says_what_came_out() -> None:
 
 
 def test_summary_does_not_hide_a_bad_mesh() -> None:
-    torn = replace(SPHERE, manifold=False, closed=False, components=2, boundary_loops=3, genus=None)
-    assert "NOT manifold, 3 boundary loops, 2 components" in summarize(report_of(Journal(options=Options()), torn))
+    torn = replace(
+        SPHERE, manifold=False, closed=False, components=2, boundary_loops=3, genus=None, self_intersections=1
+    )
+    assert "NOT manifold, 3 boundary loops, 2 components, 1 self-intersection" in summarize(
+        report_of(Journal(options=Options()), torn)
+    )
