@@ -42,7 +42,7 @@ from hdpea.geometry.metric import Metric
 from hdpea.geometry.sampling import sample_surface
 from hdpea.geometry.tensors import metric_tensors
 from hdpea.geometry.triangles import mesh_area
-from hdpea.options import EmbeddingOptions, NormalOptions
+from hdpea.options import CleaningOptions, EmbeddingOptions, NormalOptions
 from hdpea.surface.surface import NEIGHBORS
 
 JET, LEARNED, MESH = "jet", "learned", "mesh"
@@ -78,12 +78,13 @@ def options_of(method: str, weights: str | None) -> CurvatureOptions:
     """Return the defaults of a method: an embedding by its name, or jets; but with the quickest orientation.
 
     Which side is out changes signs, which are not compared, and finding it by winding number takes most of the time.
+    All points are kept, as each is compared with its own truth.
     """
-    normals = NormalOptions(orient="mst")
+    normals, cleaning = NormalOptions(orient="mst"), CleaningOptions(outliers="none")
     if method == JET:
-        return CurvatureOptions(EstimationOptions(method=JET), normals)
+        return CurvatureOptions(EstimationOptions(method=JET), normals, cleaning=cleaning)
     embedding = EmbeddingOptions(embedding=method, weights=weights if method == LEARNED else None)
-    return CurvatureOptions(normals=normals, embedding=embedding)
+    return CurvatureOptions(normals=normals, embedding=embedding, cleaning=cleaning)
 
 
 def metric_of(tensors: CurvatureTensors) -> Metric:

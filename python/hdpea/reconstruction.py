@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from hdpea.embedding import Embedder, embed_surface
 from hdpea.embedding.tangents import tangent_bases
 from hdpea.errors import core_errors_translated
-from hdpea.frontend.cleaning import surface_cloud
+from hdpea.frontend.cleaning import DroppedPoints, surface_cloud
 from hdpea.mesh.assembly import assemble_mesh
 from hdpea.mesh.budget import particles_wanted
 from hdpea.options import Length, Options
@@ -51,11 +51,14 @@ class Reconstruction:
         (f, 3) int64, counter-clockwise seen from outside. Edge- and vertex-manifold.
     report
         What was asked, chosen, found and measured.
+    dropped
+        The points that were left out because they show no surface, or crowd on scan lines.
     """
 
     vertices: NDArray[np.float64]
     faces: NDArray[np.int64]
     report: Report
+    dropped: DroppedPoints = field(default_factory=DroppedPoints)
 
 
 def reconstruct(
@@ -176,4 +179,5 @@ def reconstruct(
     journal.notes += [*cloud.notes, *found.notes, *prepared.notes]
     journal.missed += [*missed_targets(mesh, facts, options.meshing), *agreement.missed()]
     vertices_in_world = surface.frame.to_world(mesh.vertices_in_unit)
-    return Reconstruction(vertices_in_world, mesh.faces, Report.of(journal, facts, distances, agreement))
+    report = Report.of(journal, facts, distances, agreement)
+    return Reconstruction(vertices_in_world, mesh.faces, report, found.dropped)

@@ -36,7 +36,7 @@ Exit codes: 0 ok, 1 internal error, 2 usage, 3 unreadable input,
     help="draw them as an HTML file to turn and zoom, in any browser, offline",
 )
 @quiet_option
-@setting_options("estimation", "normals", "embedding", "run", owner=CurvatureOptions)
+@setting_options("estimation", "cleaning", "normals", "embedding", "run", owner=CurvatureOptions)
 def command(*, source: str, output: Path, picture: Path | None, page: Path | None, quiet: bool, **values: Any) -> None:
     """Estimate the curvature tensor at each point of the cloud IN.
 
@@ -44,7 +44,8 @@ def command(*, source: str, output: Path, picture: Path | None, page: Path | Non
     extension: principal directions 1 and 2, of the curvature of larger magnitude and of the other;
     curvature1 and curvature2 in 1 / length; stretch1, stretch2 and their stretching_ratio; the
     metric tensor; the normal; and whether the directions are determined. Where the surface is flat
-    or round they are not, and are written as 0. IN is as for reconstruct.
+    or round they are not, and are written as 0. Points that lie on no surface are left out. IN is as
+    for reconstruct.
 
     A curvature from the embedding is a magnitude, within the range that the command tells; those
     from jets have signs, positive where the surface is convex.
@@ -78,7 +79,7 @@ def command(*, source: str, output: Path, picture: Path | None, page: Path | Non
     if not quiet:
         from hdpea.curvature.summary import summarize
 
-        click.echo("\n".join([*cloud.notes, *summarize(tensors)]), err=True)
+        click.echo("\n".join(summarize(tensors)), err=True)
 
 
 def _check_outputs(output: Path, picture: Path | None, page: Path | None) -> None:

@@ -23,14 +23,15 @@ Examples:
 @click.argument("output", metavar="OUT", type=PATH)
 @config_option
 @quiet_option
-@setting_options("normals", "embedding", "run", also=["vertices", "particles"])
+@setting_options("cleaning", "normals", "embedding", "run", also=["vertices", "particles"])
 @click.pass_context
 def command(ctx: click.Context, /, *, source: str, output: Path, quiet: bool, **values: Any) -> None:
     """Embed the point cloud IN into R^8, where distances are lengths under the curvature metric.
 
     OUT is NPZ (arrays points and normals of shape (n, 3), coordinates of shape (n, 8)) or PLY
     (embedding_0 to embedding_7 as properties of the points). IN is as for reconstruct. It shows
-    as much detail as the particles that a mesh of that many --vertices is made of.
+    as much detail as the particles that a mesh of that many --vertices is made of. Points that lie
+    on no surface or crowd on scan lines are left out.
     """
     options = chosen_options(ctx, values)
     from hdpea.reading import read_points
@@ -52,4 +53,4 @@ def command(ctx: click.Context, /, *, source: str, output: Path, quiet: bool, **
     if not quiet:
         from hdpea.report.summary import describe
 
-        click.echo("\n".join([*map(describe, embedding.choices), *cloud.notes]), err=True)
+        click.echo("\n".join([*map(describe, embedding.choices), *embedding.notes]), err=True)

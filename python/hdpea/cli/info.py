@@ -27,6 +27,7 @@ Examples:
 def command(source: str, as_json: bool) -> None:
     """Say what is in the point cloud IN, and what making a mesh of it would take.
 
+    That includes what a run would leave out: points that lie on no surface, or crowd on scan lines.
     Lengths are in the units of the file. IN is as for reconstruct.
     """
     from hdpea.reading import read_points
@@ -45,7 +46,7 @@ def _describe(facts: CloudFacts) -> str:
         "from": _triple(facts.low),
         "to": _triple(facts.high),
         "extent": " x ".join(f"{length:.6g}" for length in extent) + f", diagonal {facts.diagonal:.6g}",
-        "spacing": "unknown" if facts.spacing is None else f"{facts.spacing:.4g} (median to the nearest point)",
+        "spacing": _spacing(facts),
         "normals": _normals(facts),
         "a run needs": _needs(facts),
     }
@@ -56,12 +57,21 @@ def _triple(numbers: list[float]) -> str:
     return " ".join(f"{number:.12g}" for number in numbers)
 
 
+def _spacing(facts: CloudFacts) -> str:
+    if facts.spacing is None:
+        return "unknown"
+    surface = "" if facts.surface_spacing is None else f", {facts.surface_spacing:.4g} along the surface"
+    return f"{facts.spacing:.4g} (median to the nearest point){surface}"
+
+
 def _normals(facts: CloudFacts) -> str:
     usable, unusable = facts.counts["usable_normals"], facts.counts["unusable_normals"]
     if not usable:
         return "none usable, will be estimated" if unusable else "none, will be estimated"
     if facts.normal_agreement is None:
         return f"{usable:,} usable"
+    if not facts.normals_fit:
+        return f"{usable:,}, which do not lie across the surface: they will be estimated instead"
     from hdpea.surface.orientation import TRUSTED_CONSISTENCY
 
     trusted = facts.normal_agreement >= TRUSTED_CONSISTENCY

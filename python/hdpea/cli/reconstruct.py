@@ -34,6 +34,9 @@ Exit codes: 0 ok, 1 internal error, 2 usage, 3 unreadable input,
 @click.argument("source", metavar="IN")
 @click.argument("output", metavar="OUT", type=PATH)
 @click.option("--report", cls=GroupedOption, type=PATH, help="write what was chosen and measured, as JSON")
+@click.option(
+    "--dropped", cls=GroupedOption, type=PATH, help="write the points that were left out and why, as PLY or NPZ"
+)
 @click.option("--picture", cls=GroupedOption, type=PATH, help="draw the mesh, as PNG; needs no screen")
 @config_option
 @quiet_option
@@ -46,6 +49,7 @@ def command(
     source: str,
     output: Path,
     report: Path | None,
+    dropped: Path | None,
     picture: Path | None,
     quiet: bool,
     **values: Any,
@@ -58,8 +62,8 @@ def command(
     Lengths are in the units of the file, or in percent of the diagonal of the cloud's bounding box.
     """
     options = chosen_options(ctx, values)
-    _check_outputs(output, report, picture)
-    check_distinct([source, options.embedding.weights, config_of(ctx)], [output, report, picture])
+    _check_outputs(output, report, dropped, picture)
+    check_distinct([source, options.embedding.weights, config_of(ctx)], [output, report, dropped, picture])
     from hdpea.reading import read_points
     from hdpea.runtime.clock import StageClock
     from hdpea.runtime.progress import shown, tell
@@ -84,6 +88,10 @@ def command(
             write_mesh(output, result.vertices, result.faces)
         if report:
             result.report.write(report)
+        if dropped:
+            from hdpea.writing.points import write_dropped
+
+            write_dropped(dropped, result.dropped.points, result.dropped.reasons)
         if picture:
             from hdpea.pictures.camera import mean_sight
             from hdpea.pictures.picture import Camera, draw_mesh
@@ -99,13 +107,15 @@ def command(
         raise QualityMissed(" ".join(result.report.missed), f"The mesh is in {output} all the same.")
 
 
-def _check_outputs(output: Path, report: Path | None, picture: Path | None) -> None:
+def _check_outputs(output: Path, report: Path | None, dropped: Path | None, picture: Path | None) -> None:
     from hdpea.pictures.picture import PICTURE_FORMATS, check_drawing
-    from hdpea.writing.meshes import MESH_FORMATS
+    from hdpea.writing.meshes import MESH_FORMATS, POINT_FORMATS
 
     check_output(output, MESH_FORMATS)
     if report:
         check_output(report, [".json"])
+    if dropped:
+        check_output(dropped, POINT_FORMATS)
     if picture:
         check_output(picture, PICTURE_FORMATS)
         check_drawing()

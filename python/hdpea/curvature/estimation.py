@@ -20,6 +20,7 @@ from hdpea.curvature.options import (
 from hdpea.curvature.tensors import CurvatureTensors, Estimate
 from hdpea.embedding import embed_surface
 from hdpea.errors import core_errors_translated
+from hdpea.frontend.cleaning import surface_cloud
 from hdpea.geometry.metric import Metric
 from hdpea.geometry.tensors import metric_tensors
 from hdpea.geometry.thinning import thinned
@@ -48,12 +49,12 @@ def estimate_curvature(
     Parameters
     ----------
     points
-        (n, 3) in any unit and frame; what is not finite or occurs twice is dropped. Or a cloud as ``read_points``
-        returns it, which brings its normals and sensors.
+        (n, 3) in any unit and frame; what is not finite, occurs twice or lies on no surface is dropped. Or a cloud as
+        ``read_points`` returns it, which brings its normals and sensors.
     normals
         (n, 3) of any length and sign; estimated where missing, zero or not finite.
     options
-        The method, its neighbours, and the options of normals and embedding.
+        The method, its neighbours, and the options of the front end, normals and embedding.
     progress
         Called with the phases normals, embedding and curvature, and the fraction done; returning False cancels.
     sensors
@@ -81,17 +82,19 @@ def estimate_curvature(
     """
     options = options or CurvatureOptions()
     with limited_threads(options.threads), core_errors_translated():
-        cloud = cleaned_cloud(points, normals, sensors)
-        vertices, kept = _resolution(len(cloud.points), options.estimation.vertices)
-        thin = cloud.at(kept)
+        found = surface_cloud(cleaned_cloud(points, normals, sensors), options.cleaning)
+        vertices, kept = _resolution(len(found.cloud.points), options.estimation.vertices)
+        thin = found.cloud.at(kept)
         fitting, choices = _fitting_of_normals(thin, options)
         prepared = prepare_surface(thin, fitting, points_per_vertex=len(kept) / vertices, progress=progress)
         estimate, metric = _estimate(prepared.surface, vertices, options, progress)
         signed = options.estimation.method == "jet"
+        cloud = found.on_surface
         if len(kept) < len(cloud.points):
             estimate = _at_all_points(cloud, prepared.surface, estimate, metric, signed)
         estimate = replace(estimate, choices=(*choices, *prepared.choices, *estimate.choices))
-        return _in_world(cloud, prepared.surface.frame.diagonal, estimate, metric, signed)
+        notes = (*cloud.notes, *found.notes, *prepared.notes, *_notes(estimate))
+        return _in_world(cloud.points, prepared.surface.frame.diagonal, estimate, metric, signed, notes)
 
 
 def _resolution(points: int, vertices: int | None) -> tuple[int, NDArray[np.int64]]:
@@ -128,7 +131,7 @@ def _at_all_points(
     everywhere = interpolated_estimate(
         surface.points_in_unit, estimate, metric, signed, surface.frame.to_unit(cloud.points)
     )
-    why = f"more would show no finer curvature; interpolated at all {len(cloud.points):,}"
+    why = f"others would show no finer curvature; interpolated at all {len(cloud.points):,}"
     choice = Choice("estimated_at", len(surface.points_in_unit), "points", why)
     return replace(everywhere, choices=(choice, *everywhere.choices))
 
@@ -147,12 +150,17 @@ def _estimate(
 
 
 def _in_world(
-    cloud: PointCloud, diagonal: float, estimate: Estimate, metric: Metric | None, signed: bool
+    points: NDArray[np.float64],
+    diagonal: float,
+    estimate: Estimate,
+    metric: Metric | None,
+    signed: bool,
+    notes: tuple[str, ...],
 ) -> CurvatureTensors:
     direction1 = np.where(estimate.determined[:, None], estimate.direction1, 0.0)
     low, high = (0.0, np.inf) if signed else metric.curvature_range if metric else (np.nan, np.nan)
     return CurvatureTensors(
-        points=cloud.points,
+        points=points,
         normals=estimate.normals,
         direction1=direction1,
         direction2=np.cross(estimate.normals, direction1),
@@ -163,7 +171,7 @@ def _in_world(
         signed=signed,
         curvature_range=(low / diagonal, high / diagonal),
         choices=estimate.choices,
-        notes=(*cloud.notes, *_notes(estimate)),
+        notes=notes,
     )
 
 

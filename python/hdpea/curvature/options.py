@@ -6,7 +6,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from hdpea.errors import UsageError
-from hdpea.options import Checked, EmbeddingOptions, NormalOptions, option
+from hdpea.options import Checked, CleaningOptions, EmbeddingOptions, NormalOptions, option
 from hdpea.options.meshing import POINTS_PER_VERTEX
 
 EMBEDDING_NEIGHBORS = 40
@@ -61,6 +61,7 @@ class CurvatureOptions(Checked):
     estimation: EstimationOptions = EstimationOptions()
     normals: NormalOptions = NormalOptions()
     embedding: EmbeddingOptions = EmbeddingOptions()
+    cleaning: CleaningOptions = CleaningOptions()
     threads: int = option(0, "threads to use; 0: all cores (the result is the same for any number)", minimum=0)
 
     def __post_init__(self) -> None:

@@ -46,7 +46,7 @@ class CurvatureTensors:
     Attributes
     ----------
     points
-        (n, 3) float64: finite and distinct, in the order given.
+        (n, 3) float64, in the order given: finite, distinct, and on a surface.
     normals
         (n, 3) float64, unit, consistently oriented.
     direction1, direction2

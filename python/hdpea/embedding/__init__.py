@@ -17,6 +17,7 @@ from hdpea.embedding.direct import embed_directly
 from hdpea.embedding.embedded import Embedded
 from hdpea.embedding.learned import embed_learned
 from hdpea.errors import core_errors_translated
+from hdpea.frontend.cleaning import surface_cloud
 from hdpea.geometry.unit_frame import UnitFrame
 from hdpea.options import EmbeddingOptions, Options
 from hdpea.options.choice import Choice
@@ -38,7 +39,8 @@ class Embedding:
     Attributes
     ----------
     points
-        (n, 3) float64 in world units: finite and distinct, in the order given.
+        (n, 3) float64 in world units, in the order given: those that are finite and distinct, and stand for the
+        surface (``hdpea.frontend``).
     normals
         (n, 3) float64, unit, consistently oriented.
     coordinates
@@ -47,6 +49,8 @@ class Embedding:
         The unit frame.
     choices
         What was chosen automatically.
+    notes
+        Sentences for the user about the cloud.
     """
 
     points: NDArray[np.float64]
@@ -54,6 +58,7 @@ class Embedding:
     coordinates: NDArray[np.float64]
     world_from_unit: UnitFrame
     choices: tuple[Choice, ...] = ()
+    notes: tuple[str, ...] = ()
 
 
 def embed_surface(
@@ -84,8 +89,8 @@ def embed_points(
     Parameters
     ----------
     points
-        (n, 3) in world units; what is not finite or occurs twice is dropped. Or a cloud as ``read_points`` returns it,
-        which brings its normals and sensors.
+        (n, 3) in world units; what is not finite, occurs twice, lies on no surface or crowds on scan lines is dropped.
+        Or a cloud as ``read_points`` returns it, which brings its normals and sensors.
     normals
         (n, 3), of any length and sign; estimated where missing.
     sensors
@@ -103,11 +108,14 @@ def embed_points(
     options = options or Options()
     with limited_threads(options.threads):
         cloud = cleaned_cloud(points, normals, sensors)
-        particles = options.particles_of(len(cloud.points))
+        found = surface_cloud(cloud, options.cleaning)
+        cloud = found.cloud
+        particles = options.particles_of(found.points_shown)
         prepared = prepare_surface(
             cloud, options.normals, points_per_vertex=len(cloud.points) / particles, progress=progress
         )
         surface = prepared.surface
         embedded = embed_surface(surface, particles, options.embedding, progress)
     choices = (*prepared.choices, *embedded.choices)
-    return Embedding(cloud.points, surface.normals, embedded.coordinates, surface.frame, choices)
+    notes = (*cloud.notes, *found.notes, *prepared.notes)
+    return Embedding(cloud.points, surface.normals, embedded.coordinates, surface.frame, choices, notes)

@@ -3,13 +3,38 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
+from numpy.typing import NDArray
 
-from hdpea.frontend.classifying import classify
+from hdpea.errors import core_errors_translated
+from hdpea.frontend.classifying import Classified, classify
+from hdpea.frontend.precision import precision_note
 from hdpea.options.cleaning import CleaningOptions
 from hdpea.reading.cloud import PointCloud
+
+MANY = 0.05
+"""Share of strays from which they are said to be many."""
+
+STRAY, ON_LINES = 1, 2
+"""Reasons for which points are dropped, as ``--dropped`` writes them."""
+
+
+@dataclass(frozen=True)
+class DroppedPoints:
+    """Points of a cloud that were left out.
+
+    Attributes
+    ----------
+    points
+        (m, 3) float64 in world units, in the order given.
+    reasons
+        (m,) uint8: 1 for a point that lies on no surface, 2 for one that crowds on scan lines.
+    """
+
+    points: NDArray[np.float64] = field(default_factory=lambda: np.empty((0, 3)))
+    reasons: NDArray[np.uint8] = field(default_factory=lambda: np.empty(0, dtype=np.uint8))
 
 
 @dataclass(frozen=True)
@@ -20,38 +45,60 @@ class SurfaceCloud:
     ----------
     cloud
         The points that are left, in the order given.
+    on_surface
+        The same with those that crowd on scan lines.
     points_shown
         As many evenly spread points would show as much: what the numbers of vertices and particles go by.
-    dropped_strays, dropped_on_lines
-        How many points were left out, and why.
+    spacing
+        How far apart the surface is sampled, in the sparser direction: the median; None where it was not looked.
+    dropped
+        The points that were left out, and why.
     notes
         Sentences for the user about it.
     """
 
     cloud: PointCloud
+    on_surface: PointCloud
     points_shown: int
-    dropped_strays: int = 0
-    dropped_on_lines: int = 0
+    spacing: float | None = None
+    dropped: DroppedPoints = field(default_factory=DroppedPoints)
     notes: tuple[str, ...] = ()
 
     def counts(self) -> dict[str, int]:
         """Return how many points were left out, by name."""
-        return {"dropped_strays": self.dropped_strays, "dropped_on_lines": self.dropped_on_lines}
+        reasons = self.dropped.reasons
+        return {"dropped_strays": int((reasons == STRAY).sum()), "dropped_on_lines": int((reasons == ON_LINES).sum())}
 
 
 def surface_cloud(cloud: PointCloud, options: CleaningOptions | None = None) -> SurfaceCloud:
     """Leave out of a cleaned cloud the points that lie on no surface, and those that crowd on scan lines."""
     options = options or CleaningOptions()
+    with core_errors_translated():
+        rounded = precision_note(cloud.points)
+    notes = () if rounded is None else (rounded,)
     if options.outliers == "none":
-        return SurfaceCloud(cloud, len(cloud.points))
+        return SurfaceCloud(cloud, cloud, len(cloud.points), notes=notes)
     found = classify(cloud.points)
+    known = found.spacing[found.kept & (found.spacing > 0)]
+    spacing = float(np.median(known)) if len(known) else None
     if found.kept.all():
-        return SurfaceCloud(cloud, len(cloud.points))
+        return SurfaceCloud(cloud, cloud, len(cloud.points), spacing, notes=notes)
+    left = cloud.at(np.flatnonzero(found.kept))
+    gone = np.flatnonzero(~found.kept)
+    reasons = np.where(found.strays[gone], STRAY, ON_LINES).astype(np.uint8)
+    on_surface = cloud.at(np.flatnonzero(~found.strays)) if (reasons == ON_LINES).any() else left
+    dropped = DroppedPoints(cloud.points[gone], reasons)
+    return SurfaceCloud(left, on_surface, found.shown, spacing, dropped, (*notes, *_notes(found)))
+
+
+def _notes(found: Classified) -> list[str]:
     strays = int(found.strays.sum())
-    on_lines = len(cloud.points) - strays - int(found.kept.sum())
-    told = {
-        f"Dropped points that lie on no surface: {strays:,}.": strays,
-        f"Dropped points that crowd on scan lines: {on_lines:,}.": on_lines,
-    }
-    notes = tuple(note for note, count in told.items() if count)
-    return SurfaceCloud(cloud.at(np.flatnonzero(found.kept)), found.shown, strays, on_lines, notes)
+    on_lines = len(found.kept) - strays - int(found.kept.sum())
+    notes = []
+    if strays:
+        share = strays / len(found.kept)
+        many = f", {share:.0%} of all: see that they are no part of it" if share > MANY else ""
+        notes.append(f"Dropped points that lie on no surface: {strays:,}{many}.")
+    if on_lines:
+        notes.append(f"Dropped points that crowd on scan lines: {on_lines:,}.")
+    return notes

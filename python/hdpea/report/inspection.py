@@ -9,12 +9,14 @@ import numpy as np
 
 from hdpea import _core
 from hdpea.errors import core_errors_translated
+from hdpea.frontend.cleaning import surface_cloud
 from hdpea.geometry.unit_frame import UnitFrame, diagonal_of
 from hdpea.options import MeshingOptions
 from hdpea.reading import PointCloud
 from hdpea.report.cost import PEAK_BYTES, seconds_of_run
 from hdpea.surface.normals import ORIENTATION_NEIGHBORS
 from hdpea.surface.orientation import TRUSTED_CONSISTENCY
+from hdpea.surface.plausibility import are_normals
 from hdpea.surface.surface import median_spacing
 
 
@@ -22,10 +24,12 @@ from hdpea.surface.surface import median_spacing
 class CloudFacts:
     """What ``hdpea info`` says about a cloud; lengths are in the units of the file.
 
-    ``spacing`` is the median distance to the nearest other point. ``normal_agreement`` is the share
-    of neighbouring points whose normals point to the same side, by which a run decides whether to
-    orient them anew, which takes time. Both are None where there is nothing to compare. The estimates
-    are for the default number of vertices.
+    ``counts`` are those of a run: what was dropped on reading, and what a run will leave out. ``spacing`` is the median
+    distance to the nearest other point, ``surface_spacing`` how far apart the surface is sampled: more, where points
+    lie on scan lines. ``normals_fit`` tells whether the normals lie across the surface, or else will be estimated.
+    ``normal_agreement`` is the share of neighbouring points whose normals point to the same side, by which a run
+    decides whether to orient them anew, which takes time. Each is None where there is nothing to compare. The
+    estimates are for the default number of vertices.
     """
 
     format: str
@@ -35,6 +39,8 @@ class CloudFacts:
     high: list[float]
     diagonal: float
     spacing: float | None
+    surface_spacing: float | None
+    normals_fit: bool | None
     normal_agreement: float | None
     default_vertices: int
     estimated_seconds: float
@@ -45,32 +51,38 @@ class CloudFacts:
 def inspect(cloud: PointCloud) -> CloudFacts:
     """Look at a cleaned cloud."""
     low, high = cloud.points.min(axis=0), cloud.points.max(axis=0)
-    vertices = MeshingOptions().vertices_of(len(cloud.points))
     diagonal = diagonal_of(low, high)
-    spacing, agreement = _compare_neighbors(cloud) if 0 < diagonal < np.inf else (None, None)
-    oriented = agreement is not None and agreement >= TRUSTED_CONSISTENCY
+    found = surface_cloud(cloud)
+    vertices = MeshingOptions().vertices_of(found.points_shown)
+    left = len(found.cloud.points)
+    spacing, fit, agreement = _compare_neighbors(cloud) if 0 < diagonal < np.inf else (None, None, None)
+    oriented = fit is not None and fit and agreement is not None and agreement >= TRUSTED_CONSISTENCY
     return CloudFacts(
         format=cloud.format,
-        counts=cloud.counts(),
+        counts=cloud.counts() | found.counts(),
         attributes=list(cloud.attributes),
         low=low.tolist(),
         high=high.tolist(),
         diagonal=diagonal,
         spacing=spacing,
+        surface_spacing=found.spacing,
+        normals_fit=fit,
         normal_agreement=agreement,
         default_vertices=vertices,
-        estimated_seconds=seconds_of_run(len(cloud.points), vertices, oriented),
-        estimated_peak_bytes=PEAK_BYTES.of(len(cloud.points), vertices),
-        notes=list(cloud.notes),
+        estimated_seconds=seconds_of_run(left, vertices, oriented),
+        estimated_peak_bytes=PEAK_BYTES.of(left, vertices),
+        notes=[*cloud.notes, *found.notes],
     )
 
 
-def _compare_neighbors(cloud: PointCloud) -> tuple[float, float | None]:
+def _compare_neighbors(cloud: PointCloud) -> tuple[float, bool | None, float | None]:
+    """Return the spacing, whether normals lie across the surface, and which share of neighbours agrees on a side."""
     frame = UnitFrame.around(cloud.points)
     points = frame.to_unit(cloud.points)
     with core_errors_translated():
         neighbors = _core.nearest_neighbors(points, ORIENTATION_NEIGHBORS)
         spacing = frame.diagonal * median_spacing(points, neighbors)
         if cloud.normals is None:
-            return spacing, None
-        return spacing, _core.orientation_consistency(points, cloud.normals, neighbors)
+            return spacing, None, None
+        agreement = _core.orientation_consistency(points, cloud.normals, neighbors)
+        return spacing, are_normals(points, cloud.normals), agreement

@@ -248,6 +248,50 @@ def test_outputs_that_cannot_be_are_found_at_once(
     assert reason in failed(2, "reconstruct", scan, tmp_path / output)
 
 
+@pytest.fixture
+def scan_with_strays(tmp_path: Path) -> str:
+    np.save(tmp_path / "strays.npy", np.vstack([clouds.torus(800)[0], [[9.0, 0.0, 0.0], [0.0, 7.0, 0.0]]]))
+    return str(tmp_path / "strays.npy")
+
+
+@pytest.mark.parametrize("name", ["dropped.ply", "dropped.npz"])
+def test_what_was_dropped_is_written_with_the_reason(name: str, scan_with_strays: str, tmp_path: Path) -> None:
+    assert run(["reconstruct", scan_with_strays, str(tmp_path / "m.obj"), "--dropped", str(tmp_path / name)]) == 0
+    dropped = read_points(tmp_path / name)
+    assert [9, 0, 0] in dropped.points.tolist()
+    assert [0, 7, 0] in dropped.points.tolist()
+    assert set(dropped.attributes["reason"].tolist()) == {1}
+
+
+def test_a_file_of_dropped_points_may_be_empty(scan: str, tmp_path: Path) -> None:
+    arguments = ["reconstruct", scan, str(tmp_path / "m.obj"), "--outliers", "none"]
+    assert run([*arguments, "--dropped", str(tmp_path / "dropped.ply")]) == 0
+    assert b"element vertex 0" in (tmp_path / "dropped.ply").read_bytes()
+
+
+def test_dropped_points_never_take_the_place_of_the_input(
+    scan_with_strays: str, tmp_path: Path, failed: Callable[..., str]
+) -> None:
+    (tmp_path / "soft.npz").symlink_to(scan_with_strays)
+    command = ["reconstruct", scan_with_strays, tmp_path / "m.obj", "--dropped"]
+    assert "both input and output" in failed(2, *command, tmp_path / "soft.npz")
+    assert "not one of .npz, .ply" in failed(2, *command, tmp_path / "dropped.xyz")
+
+
+@pytest.mark.parametrize("command", ["embed", "curvature"])
+def test_other_commands_leave_strays_out_and_say_so(
+    command: str, scan_with_strays: str, tmp_path: Path, capsys: Capture
+) -> None:
+    def written(*flags: str) -> int:
+        assert run([command, scan_with_strays, str(tmp_path / "out.npz"), *flags]) == 0
+        return len(np.load(tmp_path / "out.npz")["points"])
+
+    assert written() <= 800
+    assert "lie on no surface" in capsys.readouterr().err
+    assert written("--outliers", "none") == 802
+    assert "lie on no surface" not in capsys.readouterr().err
+
+
 def test_an_unknown_command_is_wrong_usage(failed: Callable[..., str]) -> None:
     assert "reconstrukt" in failed(2, "reconstrukt")
 
@@ -267,6 +311,20 @@ def test_info_says_what_becomes_of_the_normals(sign: float, fate: str, tmp_path:
     np.savetxt(tmp_path / "scan.xyz", np.hstack([points, normals]))
     assert run(["info", str(tmp_path / "scan.xyz")]) == 0
     assert fate in capsys.readouterr().out
+
+
+def test_info_tells_directions_that_are_no_normals(tmp_path: Path, capsys: Capture) -> None:
+    points, normals = clouds.torus(800)
+    np.savetxt(tmp_path / "scan.xyz", np.hstack([points, np.random.default_rng(0).permutation(normals)]))
+    assert run(["info", str(tmp_path / "scan.xyz")]) == 0
+    assert "do not lie across the surface" in capsys.readouterr().out
+
+
+def test_info_says_what_a_run_would_leave_out(scan_with_strays: str, capsys: Capture) -> None:
+    assert run(["info", scan_with_strays]) == 0
+    told = capsys.readouterr().out
+    assert "along the surface" in told
+    assert "lie on no surface" in told
 
 
 def test_info_says_that_points_are_too_few(tmp_path: Path, capsys: Capture) -> None:

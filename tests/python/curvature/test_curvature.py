@@ -18,7 +18,7 @@ from hdpea.embedding import EMBEDDERS, embed_surface
 from hdpea.embedding.embedded import Embedded
 from hdpea.errors import CannotReconstruct, Interrupted, UsageError
 from hdpea.geometry.metric import Metric
-from hdpea.options import EmbeddingOptions, NormalOptions
+from hdpea.options import CleaningOptions, EmbeddingOptions, NormalOptions
 from hdpea.surface.normals import oriented_surface
 
 Array = NDArray[np.float64]
@@ -113,9 +113,11 @@ def test_the_embedding_does_not_take_noise_for_directions() -> None:
 def test_the_embedding_meets_noise_with_more_neighbors_of_the_normals() -> None:
     points, _ = clouds.torus(8_000)
     noisy = points + np.random.default_rng(1).normal(0, 0.02, points.shape)
-    tensors = estimate_curvature(noisy)
+    # So that each is the tensor of its point.
+    kept = replace(EMBEDDING, cleaning=CleaningOptions(outliers="none"))
+    tensors = estimate_curvature(noisy, options=kept)
     assert next(choice.value for choice in tensors.choices if choice.name == "normal_neighbors") > 60
-    told = estimate_curvature(noisy, options=replace(EMBEDDING, normals=NormalOptions(normal_neighbors=16)))
+    told = estimate_curvature(noisy, options=replace(kept, normals=NormalOptions(normal_neighbors=16)))
     assert all(choice.name != "normal_neighbors" for choice in told.choices)
     direction1 = TORUS.curvature(points)[1]
     steady, plain = (
@@ -257,3 +259,14 @@ def test_what_cannot_be_estimated_is_refused() -> None:
         EstimationOptions(method="magic")
     with pytest.raises(UsageError, match="scale 0"):
         CurvatureOptions(embedding=EmbeddingOptions(metric_scale=0))
+
+
+def test_points_on_scan_lines_get_tensors_and_strays_do_not() -> None:
+    angle = np.linspace(0, 2 * np.pi, 600, endpoint=False)
+    height, around = np.meshgrid(np.arange(0, 6, 0.2), angle, indexing="ij")
+    pipe = np.column_stack([np.cos(around).ravel(), np.sin(around).ravel(), height.ravel()])
+    tensors = estimate_curvature(np.vstack([pipe, [[30.0, 0.0, 0.0]]]), options=JET)
+    assert 0.99 * len(pipe) < len(tensors.points) <= len(pipe)
+    inside = (tensors.points[:, 2] > 0.8) & (tensors.points[:, 2] < 5)
+    assert np.median(tensors.curvatures[inside, 0]) == pytest.approx(1, rel=0.1)
+    assert any("lie on no surface" in note for note in tensors.notes)

@@ -9,7 +9,7 @@ from helpers.clouds import sphere_points
 from numpy.typing import NDArray
 
 from hdpea.frontend import classify
-from hdpea.frontend.cleaning import surface_cloud
+from hdpea.frontend.cleaning import STRAY, surface_cloud
 from hdpea.options import CleaningOptions
 from hdpea.reading.cloud import PointCloud
 
@@ -117,12 +117,31 @@ def test_cleaning_counts_what_it_drops_and_keeps_the_order() -> None:
     rows = cleaned.cloud.attributes["row"]
     assert (np.diff(rows) > 0).all()
     assert rows[0] >= len(strays)
-    assert cleaned.dropped_strays + len(rows) == len(cloud.points)
-    assert any(f"{cleaned.dropped_strays:,}" in note for note in cleaned.notes)
+    strays = cleaned.counts()["dropped_strays"]
+    assert strays + len(rows) == len(cloud.points)
+    assert any(f"{strays:,}" in note for note in cleaned.notes)
+
+
+def test_what_is_dropped_is_kept_apart_with_the_reason() -> None:
+    lines = np.vstack([scan_lines(30, 15), [[9.0, 0.0, 0.0]]])
+    cleaned = surface_cloud(PointCloud(lines))
+    counts = cleaned.counts()
+    assert counts["dropped_on_lines"] > 1000
+    assert counts["dropped_strays"] >= 1
+    assert sum(counts.values()) == len(cleaned.dropped.points) == len(lines) - len(cleaned.cloud.points)
+    assert len(cleaned.on_surface.points) == len(lines) - counts["dropped_strays"]
+    assert (cleaned.dropped.reasons[(cleaned.dropped.points == [9, 0, 0]).all(axis=1)] == STRAY).all()
+
+
+def test_many_strays_are_said_to_be_many() -> None:
+    few, many = (surface_cloud(PointCloud(np.vstack(with_strays(count)))) for count in (40, 400))
+    assert "of all" not in " ".join(few.notes)
+    assert "9% of all" in " ".join(many.notes)
 
 
 def test_nothing_is_dropped_if_it_is_not_wanted() -> None:
     cloud = PointCloud(np.vstack(with_strays(40)))
     cleaned = surface_cloud(cloud, CleaningOptions(outliers="none"))
-    assert cleaned.cloud is cloud
+    assert cleaned.cloud is cleaned.on_surface is cloud
+    assert len(cleaned.dropped.points) == 0
     assert cleaned.points_shown == len(cloud.points)
