@@ -160,7 +160,7 @@ def reconstruct(
             tell(progress, "cleaning", 1)
         per_particle = len(cloud.points) / options.particles_of(found.points_shown)
         prepared = prepare_surface(cloud, options.normals, options.denoising, per_particle, progress, clock)
-        particles, count_choices = particles_wanted(options, found.points_shown)
+        particles, count_choices = particles_wanted(options, len(cloud.points), found.points_shown)
         surface = prepared.surface
         with clock.stage("embedding"):
             embedded = embed_surface(surface, particles, options.embedding, progress, embedder)

@@ -38,19 +38,24 @@ class Budget:
         return more / self.asked if abs(more) > max(TOLERANCE * self.asked, 1) else 0.0
 
 
-def particles_wanted(options: Options, points: int) -> tuple[int, tuple[Choice, ...]]:
+def particles_wanted(options: Options, points: int, points_shown: int) -> tuple[int, tuple[Choice, ...]]:
     """Return how many particles to spread on so many points, and what was chosen for that.
+
+    Parameters
+    ----------
+    points_shown
+        As many evenly spread points would show as much: what the numbers go by.
 
     Raises
     ------
     UsageError
         If there are fewer points than that.
     """
-    vertices, particles = options.vertices_of(points), options.particles_of(points)
+    vertices, particles = options.vertices_of(points_shown), options.particles_of(points_shown)
     if particles > points:
         what = "vertices" if particles == vertices else "particles"
         raise UsageError(
-            f"{particles} {what} were asked for, but there are {points} distinct points.",
+            f"{particles} {what} were asked for, but there are {points} distinct points on the surface.",
             f"Ask for at most half as many {what} as there are points.",
         )
     if options.particles.particles is not None:
@@ -58,6 +63,6 @@ def particles_wanted(options: Options, points: int) -> tuple[int, tuple[Choice, 
     if options.meshing.any_size:
         return particles, (Choice("vertices", vertices, "", f"one for every {POINTS_PER_VERTEX} points"),)
     if particles > vertices:
-        why = f"what {points:,} points can show; the mesh is simplified from these"
+        why = f"what {points_shown:,} points can show; the mesh is simplified from these"
         return particles, (Choice("particles", particles, "", why),)
     return particles, ()
