@@ -49,6 +49,7 @@ using ReleaseGil = nb::call_guard<nb::gil_scoped_release>;
 void register_errors(nb::module_& module);
 void register_farthest_point_sampling(nb::module_& module);
 void register_hole_filling(nb::module_& module);
+void register_intersection_repair(nb::module_& module);
 void register_jet_fitting(nb::module_& module);
 void register_mesh_check(nb::module_& module);
 void register_moving_least_squares(nb::module_& module);

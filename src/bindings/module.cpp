@@ -6,6 +6,7 @@ NB_MODULE(_core, module) {
   register_errors(module);
   register_farthest_point_sampling(module);
   register_hole_filling(module);
+  register_intersection_repair(module);
   register_jet_fitting(module);
   register_mesh_check(module);
   register_moving_least_squares(module);

@@ -11,6 +11,11 @@ from hdpea import _core
 REACHES = (12, 24)
 """Numbers of nearest points that a point's distance to the last of is compared; small heaps of strays need the more."""
 
+SPARSE, FAR_REACH = 3.0, 96
+"""How many times farther than most a point's neighbours are where it is compared once more, over so many of them.
+
+Of 200 strays in the box of a flat pair of scissors 24 lay so near each other that they were each other's company."""
+
 FARTHER = 2.0
 """How many times farther than theirs: of 40,000 points spread at random over a surface none comes to it."""
 
@@ -75,11 +80,25 @@ def _stand_out(points: NDArray[np.float64], on_lines: bool) -> NDArray[np.bool_]
     farther = FARTHER_FROM_LINES if on_lines else FARTHER
     for count in REACHES:
         far |= distances[:, count - 1] > farther * _around(distances[:, count - 1], nearest[:, :count])
+    reached = distances[:, -1]
+    sparse = np.flatnonzero(~far & (reached > SPARSE * np.median(reached)))
+    if len(sparse) and len(points) > FAR_REACH:
+        far[sparse] = _lie_far_off(points, sparse, farther)
     if on_lines:
         return far
     # A disk that reaches to the k-th neighbour holds k points.
     spacing = _around(distances[:, PLANE_POINTS - 1], nearest[:, :PLANE_POINTS]) * np.sqrt(np.pi / PLANE_POINTS)
     return far | _off_the_plane(offsets, spacing)
+
+
+def _lie_far_off(points: NDArray[np.float64], rows: NDArray[np.int64], farther: float) -> NDArray[np.bool_]:
+    """Return which of the `rows` of points (n, 3) stand out over the far reach, (rows,) bool."""
+    nearest = _core.nearest_neighbors(points, np.ascontiguousarray(points[rows]), FAR_REACH + 1)[:, 1:]
+    asked, at = np.unique(np.concatenate([rows[:, None], nearest], axis=1), return_inverse=True)
+    places = np.ascontiguousarray(points[asked])
+    last = _core.nearest_neighbors(points, places, FAR_REACH + 1)[:, -1]
+    reached = np.linalg.norm(points[last] - places, axis=1)[at.reshape(len(rows), -1)]
+    return np.asarray(reached[:, 0] > farther * np.quantile(reached[:, 1:], SURROUNDINGS, axis=1))
 
 
 def _around(values: NDArray[np.float64], nearest: NDArray[np.int64]) -> NDArray[np.float64]:

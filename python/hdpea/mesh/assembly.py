@@ -10,6 +10,7 @@ from hdpea.mesh.budget import Budget
 from hdpea.mesh.extraction import Mesh, extract_mesh
 from hdpea.mesh.particles import spread_particles
 from hdpea.mesh.refinement import refine_mesh
+from hdpea.mesh.repair import repair_mesh
 from hdpea.mesh.simplification import simplify_mesh
 from hdpea.options import Options
 from hdpea.runtime.clock import StageClock
@@ -63,7 +64,8 @@ def assemble_mesh(
             mesh = simplify_mesh(mesh, options.meshing, of_phase(progress, "simplification"))
         with clock.stage("refinement"):
             mesh = refine_mesh(mesh, surface, options.refinement, of_phase(progress, "refinement"))
-    return mesh
+    with clock.stage("repair"):
+        return repair_mesh(mesh)
 
 
 def _mesh_of_particles(

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "hdpea_cpp/base/types.hpp"
+
+namespace hdpea {
+
+/// Mends faces that cut or touch others: what folds over itself is smoothed, or else cut out and triangulated anew.
+///
+/// By CGAL's remove_self_intersections, in small neighbourhoods only: where two walls pass through each other, larger
+/// ones take away more than they mend, so such places may stay. A mesh in which no face cuts another, or which would
+/// have no fewer that do, is returned as it is. Borders stay; a handle may go, a vertex may go or move.
+///
+/// @param vertices  (v, 3), finite
+/// @param faces     (f, 3) edge- and vertex-manifold, oriented; what is returned is so, too
+/// @throws InvalidArgument on a broken contract
+TriangleMesh repair_self_intersections(const PointsRef& vertices, const FacesRef& faces);
+
+}  // namespace hdpea
