@@ -29,8 +29,7 @@ def facing_out(mesh: Mesh) -> FacedMesh:
     """
     with core_errors_translated():
         faced = _core.face_outwards(mesh.vertices_in_unit, mesh.faces)
-    notes = ()
-    if faced.sideless > MOST_GUESSED:
-        notes = ("The surface is open: which side is out is a guess, unless `orient` and `viewpoint` say so.",)
+    guess = "The surface is open: which side is out is a guess, unless `orient` and `viewpoint` say so."
+    notes = (guess,) if faced.sideless > MOST_GUESSED else ()
     statistics = mesh.statistics | {"pieces_turned": faced.turned}
     return FacedMesh(replace(mesh, faces=faced.faces, statistics=statistics), notes)
