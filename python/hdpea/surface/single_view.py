@@ -30,14 +30,16 @@ On every fourth training mesh, 10,000 points: of scans from one place 0.1 to 10 
 scans from three places, 23 % and more lie behind others, and none passes for one view. The real clouds of
 docs/orientation.md that were not seen from one place have 8 % and more."""
 
-APART = 0.3
-"""Least distance between layers, in spacings."""
+APART, DEVIATIONS_APART = 0.3, 4.0
+"""Least distance of layers from each other, in spacings, and in standard deviations of the noise.
 
-APART_IN_VIEW, APART_FROM_ABOVE = 4.0, 2.0
-"""Least distance between layers, in standard deviations of the noise: of a camera, and of a height field.
+Of fewer deviations, noise alone looks like layers."""
 
-Fewer, and noise alone looks like layers. But the two sides of a thin plate that noise of 0.3 % of the diagonal blurs
-are a height field for 3 of 63 training meshes at 4, for none at 2: terrain faces up without this as well."""
+MOST_NOISE = 0.5
+"""Most noise of a height field, in spacings.
+
+With more, the two sides of a thin plate pass for one layer: of 3 of 63 training meshes with noise of 0.3 % of the
+diagonal, 0.7 spacings and more. They would pass in a camera's view, too, but closed shapes are rarely before one."""
 
 SPACING_NEIGHBORS = 16
 """Nearest points that the spacing around a point is measured by."""
@@ -109,22 +111,22 @@ def _from_origin(points: Vectors, directions: Vectors, roughness: Roughness, ori
     middle = towards.mean(axis=0)
     if (towards @ middle).min() <= WIDEST * np.linalg.norm(middle):
         return None
-    if _hides_itself(points, directions, APART_IN_VIEW * roughness.noise, towards, towards):
+    if _hides_itself(points, directions, roughness.noise, towards, towards):
         return None
     return View(towards, "seen from one place, the origin: no point lies behind another", True)
 
 
 def _from_above(points: Vectors, directions: Vectors, roughness: Roughness, _origin: Vectors) -> View | None:
-    if abs(directions[:, 2]).mean() < LEAST_UPWARD:
+    if roughness.noise > MOST_NOISE or abs(directions[:, 2]).mean() < LEAST_UPWARD:
         return None
     up = np.tile([0.0, 0.0, 1.0], (len(points), 1))
-    if _hides_itself(points, directions, APART_FROM_ABOVE * roughness.noise, up, points * [1.0, 1.0, 0.0]):
+    if _hides_itself(points, directions, roughness.noise, up, points * [1.0, 1.0, 0.0]):
         return None
     return View(up, "a height field, seen from above: no point lies below another", False)
 
 
 def _hides_itself(points: Vectors, directions: Vectors, noise: float, towards: Vectors, places: Vectors) -> bool:
-    """Return whether points that are neighbours in the picture are layers more than `noise`, in spacings, apart.
+    """Return whether points that are neighbours in the picture lie in layers, apart by more than the `noise`.
 
     Their `places` (n, 3) in the picture are those of their lines of sight.
     """
@@ -135,10 +137,12 @@ def _hides_itself(points: Vectors, directions: Vectors, noise: float, towards: V
     nearest = _core.nearest_neighbors(places, np.ascontiguousarray(places[rows]), 2)
     others = np.where(nearest[:, 0] == rows, nearest[:, 1], nearest[:, 0])
     clear = facing[rows] & facing[others]
+    if not clear.any():
+        return True
     rows, others = rows[clear], others[clear]
     offsets = points[others] - points[rows]
     heights = np.stack([np.einsum("nc,nc->n", offsets, directions[ends]) for ends in (rows, others)])
-    layered = abs(heights).min(axis=0) > max(APART, noise) * _spacings(points, rows)
+    layered = abs(heights).min(axis=0) > max(APART, DEVIATIONS_APART * noise) * _spacings(points, rows)
     return bool(layered.mean() > MOST_HIDDEN)
 
 

@@ -124,8 +124,8 @@ Points orient_normals(const PointsRef& points, const PointsRef& normals, const N
     if (flipped) oriented.row(i) *= -1;
   }
   std::vector<char> inwards = face_inwards(points, oriented, neighbors, piece);
-  // The representative of the known ones is one of them, and has kept its sign.
-  if (first_known >= 0) inwards[piece[first_known]] = false;
+  // The known ones turn back to the signs that they had.
+  if (first_known >= 0) inwards[piece[first_known]] = pieces.find(first_known).second;
   for (Index i = 0; i < n; ++i) {
     if (inwards[piece[i]]) oriented.row(i) *= -1;
   }
