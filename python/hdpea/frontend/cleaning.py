@@ -3,13 +3,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from hdpea.errors import core_errors_translated
 from hdpea.frontend.classifying import Classified, classify
+from hdpea.frontend.crowds import crowd_means
 from hdpea.frontend.precision import precision_note
 from hdpea.options.cleaning import CleaningOptions
 from hdpea.reading.cloud import PointCloud
@@ -44,9 +45,9 @@ class SurfaceCloud:
     Attributes
     ----------
     cloud
-        The points that are left, in the order given.
+        The points that are left, in the order given; those of a crowd stand at its mean.
     on_surface
-        The same with those that crowd on scan lines.
+        All points but the strays, where they were given.
     points_shown
         As many evenly spread points would show as much: what the numbers of vertices and particles go by.
     spacing
@@ -71,7 +72,7 @@ class SurfaceCloud:
 
 
 def surface_cloud(cloud: PointCloud, options: CleaningOptions | None = None) -> SurfaceCloud:
-    """Leave out of a cleaned cloud the points that lie on no surface, and those that crowd on scan lines."""
+    """Leave out of a cleaned cloud what lies on no surface, and merge what crowds on scan lines."""
     options = options or CleaningOptions()
     with core_errors_translated():
         rounded = precision_note(cloud.points)
@@ -86,7 +87,11 @@ def surface_cloud(cloud: PointCloud, options: CleaningOptions | None = None) -> 
     left = cloud.at(np.flatnonzero(found.kept))
     gone = np.flatnonzero(~found.kept)
     reasons = np.where(found.strays[gone], STRAY, ON_LINES).astype(np.uint8)
-    on_surface = cloud.at(np.flatnonzero(~found.strays)) if (reasons == ON_LINES).any() else left
+    on_surface = left
+    if (reasons == ON_LINES).any():
+        on_surface = cloud.at(np.flatnonzero(~found.strays))
+        with core_errors_translated():
+            left = replace(left, points=crowd_means(cloud.points, found.kept, found.strays))
     dropped = DroppedPoints(cloud.points[gone], reasons)
     return SurfaceCloud(left, on_surface, found.shown, spacing, dropped, (*notes, *_notes(found)))
 

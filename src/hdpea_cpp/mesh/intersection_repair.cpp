@@ -34,8 +34,8 @@ TriangleMesh repair_self_intersections(const PointsRef& vertices, const FacesRef
   const Index cuts = count_self_intersections(vertices, faces);
   if (cuts == 0) return {vertices, faces};
   SurfaceMesh mesh = to_cgal(vertices, faces);
-  pmp::experimental::remove_self_intersections(
-      mesh, CGAL::parameters::preserve_genus(false).number_of_iterations(kRounds));
+  pmp::experimental::remove_self_intersections(mesh,
+                                               CGAL::parameters::preserve_genus(false).number_of_iterations(kRounds));
   pmp::keep_large_connected_components(mesh, kFewestFaces);
   pmp::remove_isolated_vertices(mesh);
   TriangleMesh repaired = from_cgal(mesh);

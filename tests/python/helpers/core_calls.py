@@ -85,6 +85,7 @@ CALLS: dict[str, tuple[Callable[..., Any], Arguments]] = {
         _mesh() | {"points": POINTS, "normals": NORMALS},
     ),
     "remesh_isotropically": (_remesh, _mesh()),
+    "repair_self_intersections": (_core.repair_self_intersections, _mesh()),
     "restricted_voronoi_candidates": (
         _core.restricted_voronoi_candidates,
         {"seeds": POINTS, "bases": BASES, "neighbors": NEIGHBORS, "radii": RADII},
