@@ -34,6 +34,7 @@ PHASES = (
     "meshing",
     "refinement",
     "simplification",
+    "repair",
     "measuring",
 )
 """The phases that ``progress`` hears of, in order; of denoising only if there is noise, or it is asked for, and of

@@ -114,7 +114,7 @@ def _lie_across(points: NDArray[np.float64], covering: NDArray[np.bool_]) -> boo
     So it does where a sensor that stands still sees each place again and again: such a crowd has noise, no detail.
     """
     level = np.ascontiguousarray(points[covering])
-    if len(level) <= SURROUNDING:
+    if covering.all() or len(level) <= SURROUNDING:
         return False
     normals = _core.estimate_normals(level, _core.nearest_neighbors(level, SURROUNDING))
     rest = points[~covering]

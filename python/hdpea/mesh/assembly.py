@@ -41,7 +41,7 @@ def assemble_mesh(
     options
         Those of particles, meshing and refinement count here.
     progress
-        Hears of the phases particles, meshing, refinement and simplification.
+        Hears of the phases particles, meshing, refinement, simplification and repair.
     clock
         Measures them as stages.
     points_shown
@@ -65,7 +65,10 @@ def assemble_mesh(
         with clock.stage("refinement"):
             mesh = refine_mesh(mesh, surface, options.refinement, of_phase(progress, "refinement"))
     with clock.stage("repair"):
-        return repair_mesh(mesh)
+        tell(progress, "repair", 0)
+        mesh = repair_mesh(mesh)
+        tell(progress, "repair", 1)
+    return mesh
 
 
 def _mesh_of_particles(
