@@ -14,6 +14,7 @@ from hdpea.errors import core_errors_translated
 from hdpea.frontend.cleaning import DroppedPoints, surface_cloud
 from hdpea.mesh.assembly import assemble_mesh
 from hdpea.mesh.budget import particles_wanted
+from hdpea.mesh.sides import FacedMesh, facing_out
 from hdpea.options import Length, Options
 from hdpea.options.settings import changed
 from hdpea.reading.cloud import PointCloud, cleaned_cloud
@@ -93,7 +94,7 @@ def reconstruct(
     progress
         Called with a phase of ``PHASES`` and the fraction of it done; returning False cancels.
     sensors
-        (n, 3), from where each point was seen; needed only to orient by viewpoint.
+        (n, 3), from where each point was seen: decides which side is out unless the normals' own signs do.
     embedder
         An embedding of your own, in place of the one that the options name.
     vertices, faces
@@ -166,6 +167,8 @@ def reconstruct(
             embedded = embed_surface(surface, particles, options.embedding, progress, embedder)
             bases = tangent_bases(embedded.coordinates, surface.normals, surface.neighbors, per_particle)
         mesh = assemble_mesh(surface, embedded.coordinates, bases, options, progress, clock, found.points_shown)
+        faced = facing_out(mesh) if prepared.oriented.computed_sides else FacedMesh(mesh)
+        mesh = faced.mesh
         with clock.stage("measuring"):
             tell(progress, "measuring", 0)
             facts = mesh_facts(mesh)
@@ -176,7 +179,7 @@ def reconstruct(
     journal.counts |= cloud.counts() | found.counts() | {"normals_estimated": prepared.oriented.estimated}
     journal.choices += [*prepared.choices, *count_choices, *embedded.choices, *mesh.choices]
     journal.meshing |= mesh.statistics
-    journal.notes += [*cloud.notes, *found.notes, *prepared.notes]
+    journal.notes += [*cloud.notes, *found.notes, *prepared.notes, *faced.notes]
     journal.missed += [*missed_targets(mesh, facts, options.meshing), *agreement.missed()]
     vertices_in_world = surface.frame.to_world(mesh.vertices_in_unit)
     report = Report.of(journal, facts, distances, agreement)

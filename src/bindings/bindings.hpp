@@ -58,6 +58,7 @@ void register_manifold_extraction(nb::module_& module);
 void register_normal_orientation(nb::module_& module);
 void register_normals(nb::module_& module);
 void register_parallel(nb::module_& module);
+void register_piece_sides(nb::module_& module);
 void register_refinement(nb::module_& module);
 void register_remeshing(nb::module_& module);
 void register_restricted_voronoi(nb::module_& module);

@@ -40,21 +40,29 @@ class OrientedSurface:
         How many normals were estimated.
     consistency
         Share of neighbours whose given normals agreed in orientation; None without given normals.
-    reoriented
-        Whether the orientation was computed, whatever the given normals say.
+    method
+        What gave the normals their signs, one of ``NormalOptions.orient`` but auto.
     refused
         Whether directions were given that are no normals, so that these were estimated instead.
     choices
         What was chosen automatically.
+    from_one_place
+        Whether a single sensor saw all points, as far as is known.
     """
 
     surface: Surface
     roughness: Roughness
     estimated: int
     consistency: float | None
-    reoriented: bool
+    method: str
     refused: bool = False
     choices: tuple[Choice, ...] = ()
+    from_one_place: bool = False
+
+    @property
+    def computed_sides(self) -> bool:
+        """Whether nothing but the points decided which side is out, neither the file nor where they were seen from."""
+        return self.method in {"wnnc", "mst"}
 
 
 def oriented_surface(
@@ -81,7 +89,7 @@ def oriented_surface(
         Points for each particle that is to be spread: with more, normals are fitted to more neighbours, so
         that noise averages out in a redundant cloud.
     sensors_in_world
-        (n, 3) float64, from where each point was seen; needed only to orient by viewpoint.
+        (n, 3) float64, from where each point was seen: decides the sides unless the normals' own signs do.
 
     Raises
     ------
@@ -116,7 +124,9 @@ def oriented_surface(
         directions, choices = _directions(points, given, usable, neighbors, roughness, options, points_per_vertex)
         # Where all normals are to be estimated, the signs of given ones count only if they are asked for.
         trusted = given if options.orient == "file" else np.where(usable[:, None], given, 0)
-        evidence = SignEvidence(trusted, ~usable, nearest, roughness)
+        evidence = SignEvidence(
+            trusted, ~usable, nearest, roughness, frame.to_unit(np.zeros(3)), _sensors(frame, sensors_in_world)
+        )
         seen_from = _seen_from(frame, sensors_in_world, options) if options.orient == "viewpoint" else None
         orientation = orient(points, directions, evidence, options.orient, seen_from, of_phase(progress, "normals"))
         if options.orient == "auto":
@@ -124,8 +134,25 @@ def oriented_surface(
         consistency = evidence.consistency(points)
     tell(progress, "normals", 1)
     surface = Surface.of(frame, points, orientation.normals, neighbors)
-    reoriented = orientation.method != "file"
-    return OrientedSurface(surface, roughness, int((~usable).sum()), consistency, reoriented, refused, choices)
+    return OrientedSurface(
+        surface,
+        roughness,
+        estimated=int((~usable).sum()),
+        consistency=consistency,
+        method=orientation.method,
+        refused=refused,
+        choices=choices,
+        from_one_place=orientation.from_one_place,
+    )
+
+
+def _sensors(frame: UnitFrame, sensors_in_world: Vectors | None) -> Vectors | None:
+    """Return the sensor of each point (n, 3) in the unit frame, if all are known."""
+    if sensors_in_world is None:
+        return None
+    with np.errstate(over="ignore"):
+        in_unit = frame.to_unit(sensors_in_world)
+    return in_unit if np.isfinite(in_unit).all() else None
 
 
 def _seen_from(frame: UnitFrame, sensors_in_world: Vectors | None, options: NormalOptions) -> Vectors | None:

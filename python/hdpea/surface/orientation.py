@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,6 +13,7 @@ from hdpea.errors import UnreadableInput, UsageError
 from hdpea.options import NormalOptions
 from hdpea.runtime.progress import PhaseCallback
 from hdpea.surface.roughness import Roughness
+from hdpea.surface.single_view import GRAZING, View, single_view
 
 Vectors = NDArray[np.float64]
 
@@ -54,12 +55,18 @@ class SignEvidence:
         (n, k) int64: nearest other points, -1 pads.
     roughness
         Of the points.
+    origin
+        (3,) float64: that of the file, where a camera may have been.
+    sensors
+        (n, 3) float64, what saw each point; None if the file does not say.
     """
 
     given: Vectors
     estimated: NDArray[np.bool_]
     neighbors: NDArray[np.int64]
     roughness: Roughness
+    origin: Vectors
+    sensors: Vectors | None = None
 
     def consistency(self, points: Vectors) -> float | None:
         """Return the share of neighbouring `points` (n, 3) whose given normals agree on the side; None without any."""
@@ -70,11 +77,24 @@ class SignEvidence:
 
 @dataclass(frozen=True)
 class Orientation:
-    """Oriented unit normals (n, 3); the method, one of ``NormalOptions.orient``; and why it was chosen."""
+    """Oriented unit normals (n, 3), and how they became so.
+
+    Attributes
+    ----------
+    normals
+        (n, 3) float64.
+    method
+        One of ``NormalOptions.orient``.
+    why
+        Why this method was chosen.
+    from_one_place
+        Whether a single sensor saw all points, as far as is known.
+    """
 
     normals: Vectors
     method: str
     why: str = ""
+    from_one_place: bool = False
 
 
 def require_signs(given: Vectors, sensors: Vectors | None, options: NormalOptions) -> None:
@@ -135,8 +155,25 @@ def _by_best_method(
         return Orientation(
             by_file(points, directions, evidence), "file", f"{given:.0%} of neighbours agree on the side"
         )
+    view = _view(points, directions, evidence)
+    if view is not None:
+        normals = by_view(points, directions, evidence, view)
+        return Orientation(normals, "viewpoint", view.why, view.from_one_place)
     if len(points) > DECIDING:
         return _as_deciding_points(points, directions, evidence, progress)
+    return _by_agreement(points, directions, evidence, progress)
+
+
+def _view(points: Vectors, directions: Vectors, evidence: SignEvidence) -> View | None:
+    """Return from where all points were seen, if the file says so or it can be told."""
+    if evidence.sensors is not None:
+        return View.of_sensors(points, evidence.sensors)
+    return single_view(points, directions, evidence.roughness, evidence.origin)
+
+
+def _by_agreement(
+    points: Vectors, directions: Vectors, evidence: SignEvidence, progress: PhaseCallback | None
+) -> Orientation:
     candidates = {
         "wnnc": by_winding_number(points, directions, evidence, progress),
         "mst": by_spanning_tree(points, directions, evidence),
@@ -158,14 +195,19 @@ def _as_deciding_points(
     first = int(np.argmax(np.square(points - points.mean(axis=0)).sum(axis=1)))
     deciding = np.sort(_core.farthest_point_sampling(points, DECIDING, first))
     few = np.ascontiguousarray(points[deciding])
-    neighbors = _core.nearest_neighbors(few, evidence.neighbors.shape[1])
     # Their spacing is wider than that of all, so that in spacings they are less rough.
     thinner = Roughness(
         evidence.roughness.deviation * float(np.sqrt(DECIDING / len(points))), evidence.roughness.like_noise
     )
-    known = SignEvidence(evidence.given[deciding], evidence.estimated[deciding], neighbors, thinner)
-    decided = _by_best_method(few, np.ascontiguousarray(directions[deciding]), known, progress)
-    return Orientation(_followed(points, directions, few, decided.normals), decided.method, decided.why)
+    known = replace(
+        evidence,
+        given=evidence.given[deciding],
+        estimated=evidence.estimated[deciding],
+        neighbors=_core.nearest_neighbors(few, evidence.neighbors.shape[1]),
+        roughness=thinner,
+    )
+    decided = _by_agreement(few, np.ascontiguousarray(directions[deciding]), known, progress)
+    return replace(decided, normals=_followed(points, directions, few, decided.normals))
 
 
 def _followed(points: Vectors, directions: Vectors, deciding: Vectors, normals: Vectors) -> Vectors:
@@ -187,6 +229,13 @@ def by_file(points: Vectors, directions: Vectors, evidence: SignEvidence) -> Vec
     nearest_usable = _core.nearest_neighbors(points[usable], points[~usable], 1)[:, 0]
     signed[~usable] = np.where(kept[nearest_usable], 1, -1)[:, None] * oriented[~usable]
     return signed
+
+
+def by_view(points: Vectors, directions: Vectors, evidence: SignEvidence, view: View) -> Vectors:
+    """Turn normals to what saw the points; those seen at a grazing angle, where noise decides, follow the others."""
+    signed = turned(directions, view.towards)
+    known = np.asarray(cosines(signed, view.towards) > GRAZING)
+    return signed if known.all() else _core.orient_normals(points, signed, evidence.neighbors, known)
 
 
 def by_spanning_tree(points: Vectors, directions: Vectors, evidence: SignEvidence) -> Vectors:

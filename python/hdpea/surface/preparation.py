@@ -85,7 +85,9 @@ def _notes(cloud: PointCloud, oriented: OrientedSurface) -> list[str]:
         notes.append("The given normals do not lie across the surface of the points: they were estimated instead.")
     elif oriented.estimated > cloud.unusable_normals:
         notes.append(f"Normals of {oriented.estimated:,} points were estimated.")
-    if oriented.reoriented and oriented.consistency is not None and oriented.consistency < TRUSTED_CONSISTENCY:
+    if oriented.method != "file" and oriented.consistency is not None and oriented.consistency < TRUSTED_CONSISTENCY:
         share = f"{oriented.consistency:.0%} of neighbours agreed"
         notes.append(f"The given normals point both ways ({share}); they were oriented anew.")
+    if oriented.from_one_place:
+        notes.append("The points were seen from one place: what cannot be seen from there is missing.")
     return notes

@@ -22,6 +22,7 @@ void register_manifold_extraction(nb::module_& module) {
       .def_ro("refused_fold", &ExtractionCounts::refused_fold)
       .def_ro("refused_normal", &ExtractionCounts::refused_normal)
       .def_ro("refused_size", &ExtractionCounts::refused_size)
+      .def_ro("refused_sides", &ExtractionCounts::refused_sides)
       .def_ro("refused_loose", &ExtractionCounts::refused_loose)
       .def_ro("dropped_components", &ExtractionCounts::dropped_components)
       .def_ro("dropped_faces", &ExtractionCounts::dropped_faces)

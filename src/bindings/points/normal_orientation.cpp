@@ -4,8 +4,9 @@
 #include "bindings/bindings.hpp"
 
 void register_normal_orientation(nb::module_& module) {
-  module.def("orient_normals", &hdpea::orient_normals, "points"_a, "normals"_a, "neighbors"_a, ReleaseGil(),
-             "Give normals (n, 3) one consistent orientation; their signs on entry do not matter.");
+  module.def("orient_normals", &hdpea::orient_normals, "points"_a, "normals"_a, "neighbors"_a,
+             "known"_a = hdpea::Mask(), ReleaseGil(),
+             "Give normals (n, 3) one consistent orientation; signs on entry matter only where they are known (n).");
   module.def("agree_on_signs", &hdpea::agree_on_signs, "points"_a, "normals"_a, "neighbors"_a,
              "least_cosine"_a = 0.9995, ReleaseGil(),
              "Give each piece of the surface the sides that most of its normals (n, 3) have.");

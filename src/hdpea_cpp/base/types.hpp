@@ -20,10 +20,14 @@ using Faces = Eigen::Matrix<Index, Eigen::Dynamic, 3, Eigen::RowMajor>;
 /// (n, k) indices of neighbours, nearest first; -1 pads a row that has fewer than k.
 using Neighbors = Eigen::Matrix<Index, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
+/// (n) which of the points.
+using Mask = Eigen::Vector<bool, Eigen::Dynamic>;
+
 using PointsRef = Eigen::Ref<const Points>;
 using CoordinatesRef = Eigen::Ref<const Coordinates>;
 using FacesRef = Eigen::Ref<const Faces>;
 using NeighborsRef = Eigen::Ref<const Neighbors>;
+using MaskRef = Eigen::Ref<const Mask>;
 
 /// A triangle mesh.
 struct TriangleMesh {

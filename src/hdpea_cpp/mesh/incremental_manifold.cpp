@@ -55,20 +55,26 @@ bool IncrementalManifold::link_stays_simple(Index vertex, Index b, Index c) cons
   return !closes || walked == faces.size();
 }
 
-bool IncrementalManifold::stays_orientable(const Triangle& triangle) {
-  // Two neighbours of one piece must ask the same parity of the new triangle.
-  std::array<std::pair<Index, bool>, 3> asked;
-  int count = 0;
+std::vector<std::pair<Index, bool>> IncrementalManifold::pieces_beside(const Triangle& triangle) {
+  std::vector<std::pair<Index, bool>> pieces;
   for (const auto& [i, j] : kEdges) {
     const Index a = triangle[i], b = triangle[j];
     const Index neighbor = faces_at(a, b)[0];
     if (neighbor < 0) continue;
     const auto [piece, flipped] = piece_of(neighbor);
-    const bool parity = flipped != opposite_parity(triangles_[neighbor], triangle, a, b);
-    for (int k = 0; k < count; ++k) {
-      if (asked[k].first == piece && asked[k].second != parity) return false;
+    const std::pair asked(piece, flipped != opposite_parity(triangles_[neighbor], triangle, a, b));
+    if (std::find(pieces.begin(), pieces.end(), asked) == pieces.end()) pieces.push_back(asked);
+  }
+  return pieces;
+}
+
+bool IncrementalManifold::stays_orientable(const Triangle& triangle) {
+  // Two neighbours of one piece must ask the same parity of the new triangle.
+  const auto asked = pieces_beside(triangle);
+  for (std::size_t k = 1; k < asked.size(); ++k) {
+    for (std::size_t other = 0; other < k; ++other) {
+      if (asked[k].first == asked[other].first) return false;
     }
-    asked[count++] = {piece, parity};
   }
   return true;
 }

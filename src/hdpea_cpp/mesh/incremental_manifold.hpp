@@ -36,6 +36,9 @@ class IncrementalManifold {
   std::array<Index, 2> faces_at(Index a, Index b) const;
   /// The representative of a face's edge-connected piece, and whether the face is flipped against it.
   std::pair<Index, bool> piece_of(Index face) { return pieces_.find(face); }
+  /// The pieces that share an edge with a triangle that is not inserted, each once for all its edges, by their
+  /// representatives; and whether the ascending triangle would be flipped against the representative.
+  std::vector<std::pair<Index, bool>> pieces_beside(const Triangle& triangle);
   /// How many faces the piece of a face has.
   Index piece_size(Index face) { return pieces_.size(face); }
   /// Whether two triangles that share the edge (a, b) must have opposite parities to agree in orientation.

@@ -72,9 +72,12 @@ class Extractor {
     return std::max(std::min(a, b), std::min(std::max(a, b), c));
   }
   bool agrees_with_points(const Triangle& triangle, double least_cosine) const;
+  bool faces_both_ways(const Triangle& triangle) const;
   bool folds_back(const Triangle& triangle) const;
   bool touches_enough(const Triangle& triangle, bool bridging);
   bool joins_pieces(Index face, Index vertex);
+  bool turns_a_piece(const Triangle& triangle);
+  void insert(const Triangle& triangle);
   /// Counts what is refused for good; returns whether the triangle was inserted.
   bool try_insert(const Candidate& candidate);
   /// Inserts what shares enough edges with the mesh, until nothing more does; returns what was not inserted.
@@ -86,6 +89,8 @@ class Extractor {
   const ExtractionOptions& options_;
   double least_fold_cosine_, least_normal_cosine_, least_lone_cosine_;
   IncrementalManifold mesh_;
+  /// How well the orientation of a piece's representative (a face) agrees with the normals of the piece's points.
+  std::vector<double> outward_;
   ExtractionCounts counts_;
 };
 
@@ -94,6 +99,18 @@ bool Extractor::agrees_with_points(const Triangle& triangle, double least_cosine
   double best = 0;  // at a crease a face lies in the plane of one of its points only
   for (Index i : triangle) best = std::max(best, std::abs(normals_.row(i).dot(normal.transpose())));
   return best >= least_cosine;
+}
+
+/// Whether it lies in the planes of two of its points that face opposite ways: of two sheets, or one wrongly oriented.
+bool Extractor::faces_both_ways(const Triangle& triangle) const {
+  const Eigen::Vector3d normal = area_vector(triangle).normalized();
+  double least = 0, most = 0;
+  for (Index i : triangle) {
+    const double cosine = normals_.row(i).dot(normal.transpose());
+    least = std::min(least, cosine);
+    most = std::max(most, cosine);
+  }
+  return -least >= least_normal_cosine_ && most >= least_normal_cosine_;
 }
 
 bool Extractor::folds_back(const Triangle& triangle) const {
@@ -136,6 +153,27 @@ bool Extractor::joins_pieces(Index face, Index vertex) {
          (small(face) || std::all_of(others.begin(), others.end(), small));
 }
 
+/// Whether the triangle joins two large pieces such that one of them faces against its points: things that touch.
+bool Extractor::turns_a_piece(const Triangle& triangle) {
+  bool out = false, in = false;
+  for (const auto& [piece, flipped] : mesh_.pieces_beside(triangle)) {
+    if (mesh_.piece_size(piece) <= options_.max_bridged_faces) continue;
+    ((outward_[piece] < 0) == flipped ? out : in) = true;
+  }
+  return out && in;
+}
+
+void Extractor::insert(const Triangle& triangle) {
+  const auto joined = mesh_.pieces_beside(triangle);
+  const Index face = static_cast<Index>(mesh_.triangles().size());
+  mesh_.insert(triangle);
+  outward_.push_back(0);
+  const auto [representative, flipped] = mesh_.piece_of(face);
+  double outward = flipped ? -outwardness(triangle) : outwardness(triangle);
+  for (const auto& [piece, _] : joined) outward += mesh_.piece_of(piece).second ? -outward_[piece] : outward_[piece];
+  outward_[representative] = outward;
+}
+
 bool Extractor::try_insert(const Candidate& candidate) {
   const auto refuse = [](Index& counter) {
     ++counter;
@@ -154,7 +192,8 @@ bool Extractor::try_insert(const Candidate& candidate) {
     case Verdict::fits:
       break;
   }
-  mesh_.insert(candidate.triangle);
+  if (turns_a_piece(candidate.triangle)) return refuse(counts_.refused_sides);
+  insert(candidate.triangle);
   return true;
 }
 
@@ -179,7 +218,7 @@ std::vector<Extractor::Candidate> Extractor::sweep_t12(std::vector<Candidate> wa
 }
 
 void Extractor::insert_candidates(const Candidates& candidates) {
-  std::vector<Candidate> t3, t12;
+  std::vector<Candidate> t3, contested, t12;
   for (Index t = 0; t < candidates.triangles.rows(); ++t) {
     const Triangle triangle{candidates.triangles(t, 0), candidates.triangles(t, 1), candidates.triangles(t, 2)};
     (candidates.counts(t) == 3 ? t3 : t12)
@@ -190,7 +229,15 @@ void Extractor::insert_candidates(const Candidates& candidates) {
   std::sort(t12.begin(), t12.end(), better);
   counts_.t3 = static_cast<Index>(t3.size());
   counts_.t12 = static_cast<Index>(t12.size());
-  for (const Candidate& candidate : t3) counts_.t3_kept += try_insert(candidate);
+  // What may join two sheets waits until these are large enough to know which way they face.
+  for (const Candidate& candidate : t3) {
+    if (faces_both_ways(candidate.triangle)) {
+      contested.push_back(candidate);
+    } else {
+      counts_.t3_kept += try_insert(candidate);
+    }
+  }
+  for (const Candidate& candidate : contested) counts_.t3_kept += try_insert(candidate);
   // Bridges come last: on thin parts they join fragments, elsewhere the surface is complete by then.
   std::vector<Candidate> loose = sweep_t12(std::move(t12), false);
   loose = sweep_t12(std::move(loose), true);
@@ -199,27 +246,20 @@ void Extractor::insert_candidates(const Candidates& candidates) {
 
 ExtractedMesh Extractor::finish() {
   const Index face_count = static_cast<Index>(mesh_.triangles().size());
-  std::vector<Index> size(static_cast<std::size_t>(face_count), 0);
-  std::vector<double> outward(size.size(), 0.0);  // how well the representative's orientation agrees with the normals
-  for (Index f = 0; f < face_count; ++f) {
-    const auto [representative, flipped] = mesh_.piece_of(f);
-    const double agreement = outwardness(mesh_.triangles()[f]);
-    outward[representative] += flipped ? -agreement : agreement;
-    ++size[representative];
-  }
   // Even if all pieces are small, the largest one stays.
-  const Index largest = face_count == 0 ? 0 : *std::max_element(size.begin(), size.end());
+  Index largest = 0;
+  for (Index f = 0; f < face_count; ++f) largest = std::max(largest, mesh_.piece_size(f));
   const Index least = std::min(options_.min_component_faces, largest);
   std::vector<Triangle> kept;
   for (Index f = 0; f < face_count; ++f) {
     const auto [representative, flipped] = mesh_.piece_of(f);
-    if (size[representative] < least) {
+    if (mesh_.piece_size(f) < least) {
       ++counts_.dropped_faces;
       counts_.dropped_components += representative == f;
       continue;
     }
     Triangle triangle = mesh_.triangles()[f];
-    if (flipped != (outward[representative] < 0)) std::swap(triangle[1], triangle[2]);
+    if (flipped != (outward_[representative] < 0)) std::swap(triangle[1], triangle[2]);
     kept.push_back(triangle);
   }
   // They were inserted in the order of their radii, which rounding (a cloud in other units) may change.

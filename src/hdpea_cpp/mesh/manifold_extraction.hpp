@@ -26,6 +26,7 @@ struct ExtractionCounts {
   Index refused_fold = 0;           ///< folds back on its neighbour
   Index refused_normal = 0;         ///< crosses the surface: its plane disagrees with the points'
   Index refused_size = 0;           ///< spans more than the disks allow
+  Index refused_sides = 0;          ///< joins two large pieces of which one would face against its points
   Index refused_loose = 0;          ///< T12 that never shared enough edges with the mesh
   Index dropped_components = 0, dropped_faces = 0;
   Index split_vertices = 0;  ///< pinched vertices given a copy of their own for each fan
@@ -39,14 +40,17 @@ struct ExtractedMesh {
 
 /// Chooses an edge- and vertex-manifold, oriented mesh from the candidates (HD-PEA, section D; Geogram's Co3Ne).
 ///
-/// T3 first, then T12, best first: seen twice before once, then by circumradius in R^d. A T12 triangle must
+/// T3 first, then T12, best first: seen twice before once, then by circumradius in R^d. T3 in the planes of points
+/// that face opposite ways come after the others: where two things touch, they join these. A T12 triangle must
 /// share two edges with the mesh, or one and bring a vertex that has no face yet; sweeps repeat until none
 /// is inserted, and then once more with those that share one edge and reach a vertex of another piece, one of the two
 /// being small: on parts so thin that few cells agree, they join the fragments. Then small components are dropped and
 /// pinched vertices split. Borders stay open.
 ///
 /// @param coordinates  (n, d) seeds; their first three columns are positions in R^3
-/// @param normals      (n, 3) unit; their signs only decide which side of a whole component is out
+/// @param normals      (n, 3) unit; their signs decide which side of a whole component is out, and that no
+///                     component is joined to another the wrong way round; signs that are wrong here and there do not
+///                     matter
 /// @param disk_radii   (n) in R^d, those that the cells were cut by. A stray seed has a wide disk; two corners with
 ///                     disks of the usual size keep it from drawing the surface out to a spike
 ExtractedMesh extract_manifold(const CoordinatesRef& coordinates, const PointsRef& normals,

@@ -39,42 +39,81 @@ std::vector<Edge> sorted_edges(const PointsRef& points, const PointsRef& normals
   return edges;
 }
 
-/// Whether each piece (by its representative) faces inwards at its extreme points along 13 axes.
-std::vector<char> face_inwards(const PointsRef& points, const Points& normals, const std::vector<Index>& piece) {
-  std::vector<double> outward(piece.size(), 0);
-  std::vector<double> highest(piece.size()), at_highest(piece.size());
-  for (int code = 0; code < 27; ++code) {
-    if (code == 13) continue;  // no direction
-    const Eigen::RowVector3d axis = Eigen::RowVector3d(code % 3 - 1, code / 3 % 3 - 1, code / 9 - 1).normalized();
-    std::fill(highest.begin(), highest.end(), -std::numeric_limits<double>::infinity());
-    for (Index i = 0; i < points.rows(); ++i) {
-      const double height = points.row(i).dot(axis);
-      if (height <= highest[piece[i]]) continue;
-      highest[piece[i]] = height;
-      at_highest[piece[i]] = normals.row(i).dot(axis);
-    }
-    for (std::size_t root = 0; root < piece.size(); ++root) {
-      if (piece[root] == static_cast<Index>(root)) outward[root] += at_highest[root];
+/// (n) area that each point stands for, to scale: that out to its farthest neighbour. Of few points far from all
+/// others, which may be strays, no more than `most_of_median` times the usual.
+Eigen::VectorXd areas_of(const PointsRef& points, const NeighborsRef& neighbors, double most_of_median = 8) {
+  Eigen::VectorXd areas = Eigen::VectorXd::Zero(points.rows());
+  for (Index i = 0; i < neighbors.rows(); ++i) {
+    for (Index j : neighbors.row(i)) {
+      if (j >= 0) areas(i) = std::max(areas(i), (points.row(j) - points.row(i)).squaredNorm());
     }
   }
+  if (areas.size() == 0) return areas;
+  Eigen::VectorXd sorted = areas;
+  std::nth_element(sorted.begin(), sorted.begin() + sorted.size() / 2, sorted.end());
+  return areas.cwiseMin(most_of_median * sorted(sorted.size() / 2));
+}
+
+/// What is summed over a piece of the surface to find the side it faces.
+struct Sums {
+  double area = 0, volume = 0;
+  Eigen::RowVector3d position = Eigen::RowVector3d::Zero(), vector_area = Eigen::RowVector3d::Zero();
+
+  /// Closed or nearly: its volume is negative. Open and rather flat, it has no inside: it faces down an axis.
+  bool faces_inwards() const {
+    if (vector_area.norm() <= kFlat * area) return volume < vector_area.dot(position) / area;
+    Index axis;
+    vector_area.cwiseAbs().maxCoeff(&axis);
+    return vector_area(axis) < 0;
+  }
+
+  /// Share of the area beyond which the vector area is that of a piece without an inside; half a sphere has 0.5.
+  static constexpr double kFlat = 0.6;
+};
+
+/// Whether each piece (by its representative) faces inwards, by all its points.
+std::vector<char> face_inwards(const PointsRef& points, const Points& normals, const NeighborsRef& neighbors,
+                               const std::vector<Index>& piece) {
+  const Eigen::VectorXd areas = areas_of(points, neighbors);
+  const Eigen::RowVector3d middle = points.colwise().mean();
+  std::vector<Sums> sums(piece.size());
+  for (Index i = 0; i < points.rows(); ++i) {
+    Sums& sum = sums[piece[i]];
+    const Eigen::RowVector3d position = points.row(i) - middle;
+    sum.area += areas(i);
+    sum.volume += areas(i) * position.dot(normals.row(i));
+    sum.position += areas(i) * position;
+    sum.vector_area += areas(i) * normals.row(i);
+  }
   std::vector<char> inwards(piece.size());
-  for (std::size_t root = 0; root < piece.size(); ++root) inwards[root] = outward[root] < 0;
+  for (std::size_t root = 0; root < piece.size(); ++root)
+    inwards[root] = sums[root].area > 0 && sums[root].faces_inwards();
   return inwards;
 }
 
 }  // namespace
 
-Points orient_normals(const PointsRef& points, const PointsRef& normals, const NeighborsRef& neighbors) {
+Points orient_normals(const PointsRef& points, const PointsRef& normals, const NeighborsRef& neighbors,
+                      const MaskRef& known) {
   const Index n = points.rows();
   require_neighborhoods(points, normals, neighbors);
+  require(known.size() == 0 || known.size() == n, "what is known must be so of each point");
+  const auto is_known = [&](Index i) { return known.size() > 0 && known(i); };
   Points oriented = normals;
   for (Index i = 0; i < n; ++i) {
+    if (is_known(i)) continue;
     // One sign for n and -n, whatever was given.
     Index largest;
     oriented.row(i).cwiseAbs().maxCoeff(&largest);
     if (oriented(i, largest) < 0) oriented.row(i) *= -1;
   }
   SignedSets pieces(n);
+  Index first_known = -1;
+  for (Index i = 0; i < n; ++i) {
+    if (!is_known(i)) continue;
+    if (first_known < 0) first_known = i;
+    pieces.join(first_known, i, false);
+  }
   for (const Edge& edge : sorted_edges(points, oriented, neighbors)) {
     pieces.join(edge.i, edge.j, carried_cosine(points, oriented, edge.i, edge.j) < 0);
   }
@@ -84,7 +123,9 @@ Points orient_normals(const PointsRef& points, const PointsRef& normals, const N
     piece[i] = root;
     if (flipped) oriented.row(i) *= -1;
   }
-  const std::vector<char> inwards = face_inwards(points, oriented, piece);
+  std::vector<char> inwards = face_inwards(points, oriented, neighbors, piece);
+  // The known ones turn back to the signs that they had.
+  if (first_known >= 0) inwards[piece[first_known]] = pieces.find(first_known).second;
   for (Index i = 0; i < n; ++i) {
     if (inwards[piece[i]]) oriented.row(i) *= -1;
   }

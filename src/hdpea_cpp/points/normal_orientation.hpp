@@ -11,12 +11,16 @@ namespace hdpea {
 /// edge e, a normal is reflected in the plane that bisects the edge, n - 2 (n . e) e, as it is along a circular
 /// arc between the points: that is right across a sharp crease and a thin wall alike (Koenig & Gumhold 2009).
 /// Edges go first where the reflected normal and the neighbour's are most nearly parallel. Each connected
-/// piece then faces outwards at its extreme points.
+/// piece then faces outwards: the volume within its points is positive. Open and rather flat, it has no inside, and
+/// faces up, or the positive way along the axis that it faces most.
 ///
 /// @param points     (n, 3)
 /// @param normals    (n, 3) unit
 /// @param neighbors  (n, k), -1 pads
-Points orient_normals(const PointsRef& points, const PointsRef& normals, const NeighborsRef& neighbors);
+/// @param known      (n) whose signs are right on entry: these are kept, and all that is connected to them follows;
+///                   or none
+Points orient_normals(const PointsRef& points, const PointsRef& normals, const NeighborsRef& neighbors,
+                      const MaskRef& known = Mask());
 
 /// Lets the points of one sheet vote on its signs: each piece of the surface takes the sides that most of its normals
 /// have on entry.

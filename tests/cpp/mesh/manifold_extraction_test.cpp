@@ -133,7 +133,7 @@ TEST(ManifoldExtraction, AStrayPointWithAWideDiskDrawsNoSpike) {
 TEST(ManifoldExtraction, AccountsForEveryCandidate) {
   const ExtractionCounts c = mesh_of(clouds::cylinder(2000, 0.5, 2), 0.12).counts;
   EXPECT_EQ(c.t3 + c.t12, c.t3_kept + c.t12_kept + c.refused_edge + c.refused_link + c.refused_orientation +
-                              c.refused_fold + c.refused_normal + c.refused_size + c.refused_loose);
+                              c.refused_fold + c.refused_normal + c.refused_size + c.refused_sides + c.refused_loose);
 }
 
 TEST(ManifoldExtraction, RefusesCandidatesThatCannotBe) {

@@ -72,6 +72,7 @@ CALLS: dict[str, tuple[Callable[..., Any], Arguments]] = {
             "counts": CANDIDATES.counts,
         },
     ),
+    "face_outwards": (_core.face_outwards, _mesh()),
     "farthest_point_sampling": (_core.farthest_point_sampling, {"points": POINTS, "count": 5}),
     "fill_holes": (_core.fill_holes, {"vertices": VERTICES, "faces": FACES[:3], "max_size": np.inf}),
     "fit_jets": (_core.fit_jets, _cloud()),

@@ -26,7 +26,7 @@ def oriented(cloud: clouds.Cloud, estimated: bool = False) -> OrientedSurface:
     frame = UnitFrame.around(cloud[0])
     surface = Surface.of(frame, frame.to_unit(cloud[0]), cloud[1])
     roughness = roughness_of(surface.points_in_unit)
-    return OrientedSurface(surface, roughness, len(cloud[0]) if estimated else 0, None, reoriented=False)
+    return OrientedSurface(surface, roughness, len(cloud[0]) if estimated else 0, None, "file")
 
 
 def after(cloud: clouds.Cloud) -> clouds.Cloud:

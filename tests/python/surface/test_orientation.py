@@ -139,7 +139,7 @@ def test_what_was_chosen_is_told() -> None:
     assert chosen_way(oriented_surface(points, truth)) == ["file"]
     assert chosen_way(oriented_surface(points, flipped_half(truth))) == ["wnnc"]
     assert chosen_way(oriented_surface(points)) == ["wnnc"]
-    assert chosen_way(oriented_surface(clouds.plane(1000)[0])) == ["mst"]
+    assert chosen_way(oriented_surface(clouds.plane(1000)[0])) == ["viewpoint"]
     assert chosen_way(oriented_surface(points, truth, NormalOptions(orient="wnnc"))) == []
 
 
