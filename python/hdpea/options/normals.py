@@ -28,8 +28,9 @@ class NormalOptions(Checked):
     )
     orient: str = option(
         "auto",
-        "which side is out. auto: the file's normals say where neighbours agree, else wnnc or mst, by which more "
-        "neighbours agree; wnnc: by the winding number, for closed shapes; mst: from neighbour to "
+        "which side is out. auto: the file's normals say where neighbours agree, else its sensors, else the place that "
+        "all was seen from, if nothing lies behind anything else from the origin or from above, else wnnc or mst, by "
+        "which more neighbours agree; wnnc: by the winding number, for closed shapes; mst: from neighbour to "
         "neighbour along a spanning tree; file: as in the file; viewpoint: towards the sensor",
         choices=("auto", "wnnc", "mst", "file", "viewpoint"),
     )

@@ -134,9 +134,15 @@ def oriented_surface(
         consistency = evidence.consistency(points)
     tell(progress, "normals", 1)
     surface = Surface.of(frame, points, orientation.normals, neighbors)
-    estimated = int((~usable).sum())
     return OrientedSurface(
-        surface, roughness, estimated, consistency, orientation.method, refused, choices, orientation.from_one_place
+        surface,
+        roughness,
+        estimated=int((~usable).sum()),
+        consistency=consistency,
+        method=orientation.method,
+        refused=refused,
+        choices=choices,
+        from_one_place=orientation.from_one_place,
     )
 
 

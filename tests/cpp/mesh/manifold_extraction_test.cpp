@@ -118,6 +118,32 @@ TEST(ManifoldExtraction, NoBridgeJoinsAPieceToItself) {
   EXPECT_EQ(mesh.faces.rows(), 3);
 }
 
+/// What is made of a flat strip whose second half faces down.
+ExtractedMesh mesh_of_turned_strip(Index max_bridged_faces) {
+  const Index count = 40;
+  Points points(count, 3), normals = Eigen::RowVector3d::UnitZ().replicate(count, 1);
+  for (Index i = 0; i < count; ++i) points.row(i) << 0.5 * static_cast<double>(i), i % 2 == 0 ? 0 : 0.9, 0;
+  normals.bottomRows(count / 2) *= -1;
+  Candidates candidates{Faces(count - 2, 3), Eigen::VectorXi::Constant(count - 2, 3), {}};
+  for (Index t = 0; t < count - 2; ++t) candidates.triangles.row(t) << t, t + 1, t + 2;
+  ExtractionOptions options;
+  options.max_bridged_faces = max_bridged_faces;
+  options.min_component_faces = 1;
+  return extract_manifold(points, normals, Eigen::VectorXd::Ones(count), candidates, options);
+}
+
+TEST(ManifoldExtraction, LargePiecesThatFaceOppositeWaysAreNotJoined) {
+  const ExtractedMesh apart = mesh_of_turned_strip(10);
+  EXPECT_EQ(apart.counts.refused_sides, 1);
+  EXPECT_EQ(apart.faces.rows(), 37);
+}
+
+TEST(ManifoldExtraction, SmallPiecesAreJoinedWhateverTheirNormalsSay) {
+  const ExtractedMesh joined = mesh_of_turned_strip(20);
+  EXPECT_EQ(joined.counts.refused_sides, 0);
+  EXPECT_EQ(joined.faces.rows(), 38);
+}
+
 TEST(ManifoldExtraction, AStrayPointWithAWideDiskDrawsNoSpike) {
   Points points(4, 3);
   points << 0, 0, 0, 1, 0, 0, 0.5, 1, 0, 0.5, 20, 0;

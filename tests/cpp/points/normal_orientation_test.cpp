@@ -60,6 +60,41 @@ TEST(NormalOrientation, OfPiecesThatAreSureOfNothingIsKept) {
   EXPECT_EQ(agree_on_signs(sphere.points, disturbed, neighbors, 1.1), disturbed);
 }
 
+TEST(NormalOrientation, OfTheWholeIsNotDecidedByStrays) {
+  const auto sphere = clouds::sphere(2000);
+  const Index strays = 26;
+  Points points(2000 + strays, 3), normals(2000 + strays, 3);
+  points.topRows(2000) = sphere.points;
+  normals.topRows(2000) = sphere.normals;
+  for (Index i = 0; i < strays; ++i) {
+    points.row(2000 + i) = 1.5 * sphere.points.row(70 * i);
+    normals.row(2000 + i) = sphere.normals.row((70 * i + 990) % 2000);  // any direction
+  }
+  const Points oriented = orient_normals(points, normals, nearest_neighbors(points, 16));
+  EXPECT_GT(share_right(oriented.topRows(2000), sphere.normals), 0.99);
+}
+
+TEST(NormalOrientation, OfAFlatPieceIsUp) {
+  const auto plane = clouds::plane(2000);
+  const Points oriented = orient_normals(plane.points, -plane.normals, nearest_neighbors(plane.points, 16));
+  EXPECT_TRUE((oriented.col(2).array() > 0).all());
+}
+
+TEST(NormalOrientation, IsThatOfThePointsWhereItIsKnown) {
+  const auto sphere = clouds::flipped(clouds::sphere(2000));
+  const Neighbors neighbors = nearest_neighbors(sphere.points, 16);
+  for (Index some : {1, 7, 1999}) {
+    Points given = with_random_signs(sphere.normals);
+    Mask known(2000);
+    for (Index i = 0; i < 2000; ++i) {
+      known(i) = i % some == some - 1;
+      if (known(i)) given.row(i) = sphere.normals.row(i);
+    }
+    EXPECT_EQ(orient_normals(sphere.points, given, neighbors, known), sphere.normals) << some;
+  }
+  EXPECT_THROW(orient_normals(sphere.points, sphere.normals, neighbors, Mask(Mask::Ones(3))), InvalidArgument);
+}
+
 TEST(NormalOrientation, RefusesArraysOfDifferentLengths) {
   const auto sphere = clouds::sphere(50);
   const Neighbors neighbors = nearest_neighbors(sphere.points, 4);

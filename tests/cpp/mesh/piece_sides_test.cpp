@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hdpea_cpp/mesh/piece_sides.hpp"
+
+#include <gtest/gtest.h>
+
+#include <utility>
+#include <vector>
+
+#include "hdpea_cpp/base/errors.hpp"
+
+namespace hdpea {
+namespace {
+
+/// Tetrahedra of the given sizes about one place, each facing out or not.
+TriangleMesh nested(const std::vector<std::pair<double, bool>>& sizes_and_out) {
+  const Index count = static_cast<Index>(sizes_and_out.size());
+  TriangleMesh mesh{Points(4 * count, 3), Faces(4 * count, 3)};
+  for (Index k = 0; k < count; ++k) {
+    const auto& [size, out] = sizes_and_out[k];
+    mesh.vertices.middleRows(4 * k, 4) << 1, 1, 1, -1, -1, 1, -1, 1, -1, 1, -1, -1;
+    mesh.vertices.middleRows(4 * k, 4) *= size;
+    auto faces = mesh.faces.middleRows(4 * k, 4);
+    faces << 0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3;
+    if (out) faces.col(1).swap(faces.col(2));
+    faces.array() += 4 * k;
+  }
+  return mesh;
+}
+
+TEST(PieceSides, OnlyTheOutermostPieceIsTurned) {
+  for (const bool outer : {false, true}) {
+    for (const bool inner : {false, true}) {
+      const TriangleMesh given = nested({{1, outer}, {0.1, inner}});
+      const FacedMesh faced = face_outwards(given.vertices, given.faces);
+      const bool agree = nested({{1, true}, {0.1, inner}}).faces == faced.faces;
+      EXPECT_NE(agree, nested({{1, false}, {0.1, inner}}).faces == faced.faces);
+      EXPECT_EQ(faced.faces.bottomRows(4), given.faces.bottomRows(4));
+      EXPECT_LE(faced.turned, 1);
+      EXPECT_EQ(faced.sideless, 0);
+    }
+  }
+  const TriangleMesh out = nested({{1, true}}), in = nested({{1, false}});
+  EXPECT_EQ(face_outwards(out.vertices, out.faces).faces, face_outwards(in.vertices, in.faces).faces);
+}
+
+TEST(PieceSides, WhatIsOpenIsKept) {
+  const TriangleMesh given = nested({{1, false}});
+  const Faces two = given.faces.topRows(2), flipped = nested({{1, true}}).faces.topRows(2);
+  for (const Faces& faces : {two, flipped}) {
+    const FacedMesh faced = face_outwards(given.vertices, faces);
+    EXPECT_EQ(faced.faces, faces);
+    EXPECT_EQ(faced.sideless, 1);
+  }
+}
+
+TEST(PieceSides, RefusesVerticesThatDoNotExist) {
+  const TriangleMesh given = nested({{1, true}});
+  EXPECT_THROW(face_outwards(given.vertices.topRows(3), given.faces), InvalidArgument);
+}
+
+}  // namespace
+}  // namespace hdpea
