@@ -1,0 +1,150 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Clouds as scanners and other programs deliver them, of surfaces that are known."""
+
+from __future__ import annotations
+
+import numpy as np
+from helpers.clouds import TAU, Array, sphere_points
+
+ELLIPSOID = np.array([1.0, 0.8, 0.6])
+ROOM = np.array([[-8.0, -6.0, 0.0], [8.0, 6.0, 3.0]])
+"""Lowest and highest corner."""
+
+CLIFF = 20.0
+
+
+def spacing_of(count: int) -> float:
+    """Return the spacing of so many points on the unit sphere."""
+    return float(np.sqrt(4 * np.pi / count))
+
+
+def with_outliers(count: int, outliers: int) -> Array:
+    """Return a unit sphere, and points anywhere in a cube of side 3 around it."""
+    strewn = np.random.default_rng(2).uniform(-1.5, 1.5, (outliers, 3))
+    return np.vstack([sphere_points(count, 1), strewn])
+
+
+def repeated_rays(count: int, frames: int, noise: float) -> Array:
+    """Return frames of a unit sphere along the same rays; the noise of the range is in spacings of a frame."""
+    places = np.arange(count)
+    polar, around = np.arccos(1 - (2 * places + 1) / count), places * np.pi * (1 + 5**0.5)
+    rays = np.stack([np.sin(polar) * np.cos(around), np.sin(polar) * np.sin(around), np.cos(polar)], axis=1)
+    random = np.random.default_rng(1)
+    return np.vstack([rays * (1 + random.normal(0, noise * spacing_of(count), (count, 1))) for _ in range(frames)])
+
+
+def jittered_copies(count: int, copies: int, jitter: float) -> Array:
+    """Return the same points of a unit sphere again and again, each nearly where it was."""
+    points = sphere_points(count, 1)
+    return np.vstack(
+        [points + jitter * np.random.default_rng(seed).normal(size=points.shape) for seed in range(copies)]
+    )
+
+
+def two_scans_of_a_ball(count: int, spacings: float) -> tuple[Array, Array]:
+    """Return two scans of a unit sphere, out of register along x, and their true normals."""
+    one, other = sphere_points(count, 1), sphere_points(count, 2)
+    return np.vstack([one, other + np.array([spacings * spacing_of(count), 0, 0])]), np.vstack([one, other])
+
+
+def two_scans_of_a_wall(count: int, spacings: float) -> tuple[Array, Array]:
+    """Return two scans of a unit square, out of register along z, with a tenth of a spacing of noise; normals +z."""
+    random = np.random.default_rng(0)
+    spacing = count**-0.5
+    layers = [
+        np.column_stack([random.random((count, 2)), offset * spacing + 0.1 * spacing * random.normal(size=count)])
+        for offset in (0, spacings)
+    ]
+    return np.vstack(layers), np.tile([0.0, 0.0, 1.0], (2 * count, 1))
+
+
+def rings(rows: int, ratio: float) -> Array:
+    """Return circles of latitude of the unit sphere, turned at random, `ratio` times denser along than across."""
+    circles = []
+    for row in range(rows):
+        polar = np.pi * (row + 0.5) / rows
+        count = max(3, int(2 * rows * ratio * np.sin(polar)))
+        around = np.arange(count) * TAU / count + 6 * np.random.default_rng(row).random()
+        ring = np.sin(polar) * np.cos(around), np.sin(polar) * np.sin(around), np.full(count, np.cos(polar))
+        circles.append(np.stack(ring, axis=1))
+    return np.vstack(circles)
+
+
+def contours(rows: int, of_each: int) -> Array:
+    """Return contours of an ellipsoid with half axes 1, 0.7 and 1.2, without its poles."""
+    height, around = np.meshgrid(np.linspace(-0.97, 0.97, rows), np.arange(of_each) * TAU / of_each, indexing="ij")
+    radius = np.sqrt(1 - height**2)
+    on_sphere = np.stack([radius * np.cos(around), radius * np.sin(around), height], axis=-1)
+    return on_sphere.reshape(-1, 3) * [1, 0.7, 1.2]
+
+
+def tube_profiles(rows: int, of_each: int) -> Array:
+    """Return circles of radius 1, one every 1 along x."""
+    along, around = np.meshgrid(np.arange(float(rows)), np.arange(of_each) * TAU / of_each, indexing="ij")
+    return np.column_stack([along.ravel(), np.cos(around).ravel(), np.sin(around).ravel()])
+
+
+def lidar_rays(elevations: Array, step: float) -> Array:
+    """Return the directions (n, 3) of beams of these elevations, a pulse every `step`; all in degrees."""
+    around, up = np.meshgrid(np.radians(np.arange(0, 360, step)), np.radians(elevations))
+    return np.stack([np.cos(up) * np.cos(around), np.cos(up) * np.sin(around), np.sin(up)], axis=-1).reshape(-1, 3)
+
+
+def lidar_ground(beams: int, step: float) -> Array:
+    """Return one frame of flat ground seen from 1.7 m above it, from 3.6 m to 39 m away, with 1 cm of noise."""
+    rays = lidar_rays(-np.linspace(2.5, 25, beams), step)
+    ranges = -1.7 / rays[:, 2] + np.random.default_rng(0).normal(0, 0.01, len(rays))
+    return ranges[:, None] * rays + [0, 0, 1.7]
+
+
+def lidar_room(beams: int, step: float) -> Array:
+    """Return one frame of a room from 1.2 m above its floor, with 1 cm of noise."""
+    rays, sensor = lidar_rays(np.linspace(-15, 15, beams), step), np.array([0, 0, 1.2])
+    # A level ray hits neither floor nor ceiling, and one along an axis two walls only.
+    steep = np.where(abs(rays) > 1e-12, rays, 1e-12)
+    ranges = (np.where(steep > 0, ROOM[1] - sensor, ROOM[0] - sensor) / steep).min(axis=1)
+    return sensor + rays * (ranges + np.random.default_rng(0).normal(0, 0.01, len(rays)))[:, None]
+
+
+def ball_on_a_floor(count: int) -> Array:
+    """Return a unit sphere that lies on a square of side 6, which has twice as many points."""
+    floor = np.column_stack([np.random.default_rng(0).uniform(-3, 3, (2 * count, 2)), np.full(2 * count, -1.0)])
+    return np.vstack([sphere_points(count, 1), floor])
+
+
+def land_with_a_cliff(step: float) -> Array:
+    """Return a height field, of which a part lies higher by a cliff."""
+    u, v = (axis.ravel() for axis in np.meshgrid(np.arange(0, 150, step), np.arange(0, 120, step)))
+    plateau = u > 80 + 5 * np.sin(v / 10)
+    return np.column_stack([u, v, 5 * np.sin(u / 25) + 3 * np.cos(v / 18) + CLIFF * plateau])
+
+
+def box_on_a_table(count: int) -> Array:
+    """Return a unit cube without its bottom on a square of side 4, with a fifth of a spacing of noise."""
+    random, spacing = np.random.default_rng(0), 4 * count**-0.5
+    table = random.uniform(-2, 2, (count, 2))
+    parts = [np.column_stack([table, 0 * table[:, 0]])[(abs(table) > 0.5).any(axis=1)]]
+    for axis, side in [(0, -0.5), (0, 0.5), (1, -0.5), (1, 0.5), (2, 1.0)]:
+        face = random.random((count // 16, 3)) - [0.5, 0.5, 0]
+        face[:, axis] = side
+        parts.append(face)
+    points = np.vstack(parts)
+    return points + random.normal(0, 0.2 * spacing, points.shape)
+
+
+def cables_and_a_pole(count: int) -> Array:
+    """Return three sagging cables 2 cm thick and 20 m long, and a pole of 15 cm, with half as many points again."""
+    random, parts = np.random.default_rng(0), []
+    for y in (0, 0.5, 1):
+        x, around = 20 * random.random(count), TAU * random.random(count)
+        height = 0.02 * (x - 10) ** 2 + 5
+        parts.append(np.column_stack([x, y + 0.01 * np.cos(around), height + 0.01 * np.sin(around)]))
+    around, height = random.random((2, count * 3 // 2)) * [[TAU], [7]]
+    parts.append(np.column_stack([10 + 0.075 * np.cos(around), -1 + 0.075 * np.sin(around), height]))
+    return np.vstack(parts)
+
+
+def solid_ball(count: int) -> Array:
+    """Return about half as many points that fill the unit ball."""
+    points = np.random.default_rng(0).uniform(-1, 1, (count, 3))
+    return points[np.linalg.norm(points, axis=1) < 1]
