@@ -14,10 +14,10 @@ from hdpea import _core
 from hdpea.frontend.cleaning import surface_cloud
 from hdpea.geometry.triangles import area_vectors
 from hdpea.geometry.unit_frame import UnitFrame
-from hdpea.options import CleaningOptions
+from hdpea.options import CleaningOptions, DenoisingOptions, NormalOptions
 from hdpea.reading import read_points
 from hdpea.reading.cloud import cleaned
-from hdpea.surface.normals import oriented_surface
+from hdpea.surface.preparation import prepare_surface
 
 Array = NDArray[np.float64]
 
@@ -48,7 +48,8 @@ class Known:
     def of(cls, path: Path) -> Known:
         """Read a cloud; its normals are those of the file, or estimated, and oriented as a run does it."""
         cloud = surface_cloud(cleaned(read_points(path)), CleaningOptions()).cloud
-        surface = oriented_surface(cloud.points, cloud.normals, sensors_in_world=cloud.sensors).surface
+        prepared = prepare_surface(cloud, NormalOptions(), DenoisingOptions(denoise="none"), 8.0)
+        surface = prepared.oriented.surface
         return cls(surface.frame, surface.points_in_unit, surface.normals, surface.spacing)
 
 

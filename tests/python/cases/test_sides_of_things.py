@@ -1,0 +1,46 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Which side is out of things that touch, and of open scenes."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from helpers.clouds import sphere_points
+from helpers.raw_clouds import ball_on_a_floor, box_on_a_table, land_with_a_cliff
+from helpers.raw_meshes import BALL, middles, says_it_is_a_guess, share_against
+from helpers.reconstructions import area_vectors, volume
+
+from hdpea import reconstruct
+
+UP = np.array([0.0, 0.0, 1.0])
+
+
+@pytest.mark.parametrize("apart", [0.0, 0.04])
+def test_two_balls_that_touch_are_two_and_both_face_out(apart: float) -> None:
+    made = reconstruct(np.vstack([sphere_points(2500, 1), sphere_points(2500, 2) + np.array([2 + apart, 0, 0])]))
+    mesh = made.report.mesh
+    assert (mesh.closed, mesh.components, mesh.genus, mesh.self_intersections) == (True, 2, 0, 0)
+    assert volume(made) == pytest.approx(2 * BALL, rel=0.03)
+
+
+def test_a_ball_on_a_floor_faces_out() -> None:
+    made = reconstruct(ball_on_a_floor(2500))
+    places, normals = middles(made), area_vectors(made)
+    on_ball = (abs(np.linalg.norm(places, axis=1) - 1) < 0.05) & (places[:, 2] > -0.8)
+    outward = (normals * places).sum(axis=1)[on_ball]
+    assert on_ball.sum() > 500
+    assert (outward > 0).mean() > 0.995
+
+
+def test_all_pieces_of_a_height_field_face_the_same_way() -> None:
+    made = reconstruct(land_with_a_cliff(2))
+    assert share_against(made, UP) < 0.01 or (share_against(made, -UP) < 0.01 and says_it_is_a_guess(made))
+
+
+def test_a_box_on_a_table_faces_out_where_the_table_faces_up() -> None:
+    made = reconstruct(box_on_a_table(10_000))
+    places = middles(made)
+    side = (abs(places[:, :2]).max(axis=1) < 0.6) & (places[:, 2] > 0.1) & (places[:, 2] < 0.9)
+    outward = np.where(side[:, None], places * [1, 1, 0], UP)
+    against = share_against(made, outward)
+    assert against < 0.04 or (against > 0.96 and says_it_is_a_guess(made))
