@@ -4,6 +4,7 @@
 #include <CGAL/Polygon_mesh_processing/connected_components.h>
 #include <CGAL/Polygon_mesh_processing/repair.h>
 #include <CGAL/Polygon_mesh_processing/repair_self_intersections.h>
+#include <CGAL/exceptions.h>
 
 #include "hdpea_cpp/base/checks.hpp"
 #include "hdpea_cpp/mesh/cgal_mesh.hpp"
