@@ -22,26 +22,28 @@ constexpr unsigned kRounds = 3;
 // What is cut off may be closed by a triangle on its own back: no piece has fewer faces than a tetrahedron.
 constexpr std::size_t kFewestFaces = 4;
 
-bool is_manifold(const PointsRef& vertices, const FacesRef& faces) {
-  const MeshCheck check = check_mesh(vertices, faces);
-  return check.manifold() && check.oriented();
-}
-
 }  // namespace
 
 TriangleMesh repair_self_intersections(const PointsRef& vertices, const FacesRef& faces) {
-  require_mesh(vertices, faces);
-  require(is_manifold(vertices, faces), "repair_self_intersections needs a manifold, oriented mesh");
+  const MeshCheck given = check_mesh(vertices, faces);
+  require(given.manifold() && given.oriented(), "repair_self_intersections needs a manifold, oriented mesh");
   const Index cuts = count_self_intersections(vertices, faces);
-  if (cuts == 0) return {vertices, faces};
+  // CGAL's smoothing needs faces with an area.
+  if (cuts == 0 || given.degenerate_faces > 0) return {vertices, faces};
   SurfaceMesh mesh = to_cgal(vertices, faces);
-  pmp::experimental::remove_self_intersections(mesh,
-                                               CGAL::parameters::preserve_genus(false).number_of_iterations(kRounds));
+  try {
+    pmp::experimental::remove_self_intersections(mesh,
+                                                 CGAL::parameters::preserve_genus(false).number_of_iterations(kRounds));
+  } catch (const CGAL::Failure_exception&) {
+    return {vertices, faces};  // some faces lost theirs on the way, which only builds with assertions see
+  }
   pmp::keep_large_connected_components(mesh, kFewestFaces);
   pmp::remove_isolated_vertices(mesh);
   TriangleMesh repaired = from_cgal(mesh);
-  const bool better = is_manifold(repaired.vertices, repaired.faces) &&
-                      count_self_intersections(repaired.vertices, repaired.faces) < cuts;
+  if (repaired.faces.rows() == 0 || !repaired.vertices.allFinite()) return {vertices, faces};
+  const MeshCheck check = check_mesh(repaired.vertices, repaired.faces);
+  const bool better =
+      check.manifold() && check.oriented() && count_self_intersections(repaired.vertices, repaired.faces) < cuts;
   return better ? repaired : TriangleMesh{vertices, faces};
 }
 
