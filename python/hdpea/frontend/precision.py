@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hdpea import _core
+from hdpea.geometry.thinning import rows_along
 
 SAMPLES = 2_000
 """Points at which the spacing is measured."""
@@ -27,7 +28,7 @@ def precision_note(points: NDArray[np.float64]) -> str | None:
     if len(points) < 2 or not np.array_equal(single.astype(np.float64), points):
         return None
     step = float(np.spacing(abs(single).max()))
-    rows = np.linspace(0, len(points) - 1, min(SAMPLES, len(points))).astype(np.int64)
+    rows = rows_along(len(points), SAMPLES)
     queries = np.ascontiguousarray(points[rows])
     # The nearest to a point of the cloud is the point itself.
     nearest = _core.nearest_neighbors(points, queries, 2)[:, 1]

@@ -50,9 +50,10 @@ def find_strays(points: NDArray[np.float64], on_lines: bool = False) -> NDArray[
 
     A point is a stray where its 12th or 24th nearest point is twice as far away as the same is from the points around
     it (statistical outlier removal, Rusu et al., "Towards 3D point cloud based object maps for household environments",
-    2008; local, as in Breunig et al., "LOF", 2000, so that no cloud is too uneven), or where it lies off the plane of
-    its nearest points as none of these does. Strays once found say nothing about others; so it is repeated without
-    them until no more are found. Neither moving, turning nor scaling the cloud makes a difference.
+    2008; local, as in Breunig et al., "LOF", 2000, so that no cloud is too uneven), where points
+    are sparse also by the 96th, or where it lies off the plane of its nearest points as none of these does. Strays once
+    found say nothing about others; so it is repeated without them until no more are found. Neither moving, turning nor
+    scaling the cloud makes a difference.
 
     Of points `on_lines`, where the plane of the nearest means nothing, only those count that lie four times as far.
 

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from hdpea import _core
 from hdpea.errors import UnreadableInput, UsageError
+from hdpea.geometry.thinning import farthest_rows
 from hdpea.options import NormalOptions
 from hdpea.runtime.progress import PhaseCallback
 from hdpea.surface.roughness import Roughness
@@ -192,8 +193,7 @@ def _as_deciding_points(
     points: Vectors, directions: Vectors, evidence: SignEvidence, progress: PhaseCallback | None
 ) -> Orientation:
     """Orient the points that lie farthest from each other, and all others as these are."""
-    first = int(np.argmax(np.square(points - points.mean(axis=0)).sum(axis=1)))
-    deciding = np.sort(_core.farthest_point_sampling(points, DECIDING, first))
+    deciding = np.sort(farthest_rows(points, DECIDING))
     few = np.ascontiguousarray(points[deciding])
     # Their spacing is wider than that of all, so that in spacings they are less rough.
     thinner = Roughness(

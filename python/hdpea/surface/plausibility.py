@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hdpea import _core
+from hdpea.geometry.thinning import rows_along
 
 SAMPLES = 2_000
 """Points at which it is looked."""
@@ -40,7 +41,7 @@ def are_normals(points: NDArray[np.float64], directions: NDArray[np.float64]) ->
     scales = [count for count in SCALES if count < len(points)]
     if not len(rows) or not scales:
         return True
-    rows = rows[np.linspace(0, len(rows) - 1, min(SAMPLES, len(rows))).astype(np.int64)]
+    rows = rows[rows_along(len(rows), SAMPLES)]
     nearest = _core.nearest_neighbors(points, np.ascontiguousarray(points[rows]), scales[-1])
     return min(_variance_along(directions[rows], points[nearest[:, :count]]) for count in scales) < MOST_VARIANCE
 

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hdpea import _core
+from hdpea.geometry.thinning import rows_along
 
 SAMPLES = 2_000
 """Points at which it is measured: their median is certain to a few percent."""
@@ -63,7 +64,7 @@ def roughness_of(points: NDArray[np.float64]) -> Roughness:
     count = len(points)
     if count < NEIGHBORS:
         return Roughness(0.0, False)
-    rows = np.linspace(0, count - 1, min(SAMPLES, count)).astype(np.int64)
+    rows = rows_along(count, SAMPLES)
     around = points[_core.nearest_neighbors(points, points[rows], NEIGHBORS)]
     offsets = around - around.mean(axis=1, keepdims=True)
     radii = np.linalg.norm(around - points[rows, None], axis=2).max(axis=1)

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hdpea import _core
+from hdpea.geometry.thinning import rows_along
 from hdpea.surface.roughness import Roughness
 
 Vectors = NDArray[np.float64]
@@ -133,7 +134,7 @@ def _hides_itself(points: Vectors, directions: Vectors, noise: float, towards: V
     facing = abs(np.einsum("nc,nc->n", directions, towards)) > GRAZING
     if facing.mean() < LEAST_FACED:
         return True
-    rows = np.linspace(0, len(points) - 1, min(SAMPLES, len(points))).astype(np.int64)
+    rows = rows_along(len(points), SAMPLES)
     nearest = _core.nearest_neighbors(places, np.ascontiguousarray(places[rows]), 2)
     others = np.where(nearest[:, 0] == rows, nearest[:, 1], nearest[:, 0])
     clear = facing[rows] & facing[others]
