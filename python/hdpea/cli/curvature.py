@@ -8,9 +8,10 @@ from typing import Any
 
 import click
 
-from hdpea.cli.parameters import PATH, GroupedCommand, GroupedOption, quiet_option, setting_options
+from hdpea.cli.parameters import PATH, GroupedCommand, GroupedOption, force_option, quiet_option, setting_options
 from hdpea.curvature.options import CurvatureOptions
 from hdpea.options.settings import filled
+from hdpea.runtime.marks import check_replaceable
 from hdpea.runtime.outputs import check_distinct, check_output
 
 EPILOG = """\b
@@ -35,9 +36,19 @@ Exit codes: 0 ok, 1 internal error, 2 usage, 3 unreadable input,
     type=PATH,
     help="draw them as an HTML file to turn and zoom, in any browser, offline",
 )
+@force_option
 @quiet_option
 @setting_options("estimation", "cleaning", "normals", "embedding", "run", owner=CurvatureOptions)
-def command(*, source: str, output: Path, picture: Path | None, page: Path | None, quiet: bool, **values: Any) -> None:
+def command(
+    *,
+    source: str,
+    output: Path,
+    picture: Path | None,
+    page: Path | None,
+    force: bool,
+    quiet: bool,
+    **values: Any,
+) -> None:
     """Estimate the curvature tensor at each point of the cloud IN.
 
     OUT is PLY or CSV (a column for each number), NPZ or VTP (an array for each quantity), by its
@@ -55,6 +66,8 @@ def command(*, source: str, output: Path, picture: Path | None, page: Path | Non
     options = filled(CurvatureOptions, values)
     _check_outputs(output, picture, page)
     check_distinct([source, options.embedding.weights], [output, picture, page])
+    kinds = {output: "curvature", picture: "picture", page: "page"}
+    check_replaceable({path: kind for path, kind in kinds.items() if path is not None}, force)
     from hdpea.curvature.estimation import estimate_curvature
     from hdpea.curvature.writing import write_curvature
     from hdpea.reading import read_points

@@ -9,7 +9,7 @@ from typing import Any
 import click
 
 from hdpea.cli.config import config_of, config_option
-from hdpea.cli.parameters import PATH, GroupedCommand, chosen_options, quiet_option, setting_options
+from hdpea.cli.parameters import PATH, GroupedCommand, chosen_options, force_option, quiet_option, setting_options
 
 EPILOG = """\b
 Examples:
@@ -22,10 +22,11 @@ Examples:
 @click.argument("source", metavar="IN")
 @click.argument("output", metavar="OUT", type=PATH)
 @config_option
+@force_option
 @quiet_option
 @setting_options("cleaning", "normals", "embedding", "run", also=["vertices", "particles"])
 @click.pass_context
-def command(ctx: click.Context, /, *, source: str, output: Path, quiet: bool, **values: Any) -> None:
+def command(ctx: click.Context, /, *, source: str, output: Path, force: bool, quiet: bool, **values: Any) -> None:
     """Embed the point cloud IN into R^8, where distances are lengths under the curvature metric.
 
     OUT is NPZ (arrays points and normals of shape (n, 3), coordinates of shape (n, 8)) or PLY
@@ -35,12 +36,14 @@ def command(ctx: click.Context, /, *, source: str, output: Path, quiet: bool, **
     """
     options = chosen_options(ctx, values)
     from hdpea.reading import read_points
+    from hdpea.runtime.marks import check_replaceable
     from hdpea.runtime.outputs import check_distinct, check_output
     from hdpea.runtime.progress import shown, tell
     from hdpea.writing.meshes import POINT_FORMATS, write_points
 
     check_output(output, POINT_FORMATS)
     check_distinct([source, options.embedding.weights, config_of(ctx)], [output])
+    check_replaceable({output: "embedding"}, force)
     with shown(quiet) as progress:
         tell(progress, "reading", 0.0)
         cloud = read_points(source)

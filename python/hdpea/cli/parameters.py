@@ -110,9 +110,13 @@ class GroupedCommand(click.Command):
         try:
             return super().invoke(ctx)
         except HdpeaError as error:
-            flags = {str(each.name): each.opts[0] for each in self.params if isinstance(each, click.Option)}
-            error.message, error.hint = with_flags(error.message, flags), with_flags(error.hint, flags)
+            error.message, error.hint = self.in_flags(error.message), self.in_flags(error.hint)
             raise
+
+    def in_flags(self, text: str) -> str:
+        """Return a text of the library with the flags of this command in place of options."""
+        flags = {str(each.name): each.opts[0] for each in self.params if isinstance(each, click.Option)}
+        return with_flags(text, flags)
 
     def format_options(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
         """Write one section per group."""
@@ -127,6 +131,11 @@ class GroupedCommand(click.Command):
 
 
 quiet_option = click.option("--quiet", cls=GroupedOption, is_flag=True, help="say nothing but errors")
+
+
+force_option = click.option(
+    "--force", cls=GroupedOption, is_flag=True, help="replace files that hdpea did not make, though never an input"
+)
 
 
 def setting_options(

@@ -6,39 +6,74 @@ Most flags are fields of the options: a new one is a new field in ``hdpea/option
 
 from __future__ import annotations
 
-from importlib import import_module
+import sys
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
 import click
 
 from hdpea.cli.config import config_of, config_option
-from hdpea.cli.parameters import PATH, GroupedCommand, GroupedOption, chosen_options, quiet_option, setting_options
-from hdpea.errors import QualityMissed
+from hdpea.cli.destinations import FORMATS, destinations, require_no_scan
+from hdpea.cli.job import Ended, Job, make_mesh, missed
+from hdpea.cli.parameters import (
+    PATH,
+    GroupedCommand,
+    GroupedOption,
+    chosen_options,
+    force_option,
+    quiet_option,
+    setting_options,
+)
+from hdpea.errors import HdpeaError, UsageError
+from hdpea.runtime.marks import check_replaceable
 from hdpea.runtime.outputs import check_distinct, check_output
 
 EPILOG = """\b
 Examples:
+  hdpea reconstruct scan.ply                # makes scan.mesh.ply
   hdpea reconstruct scan.ply mesh.obj
   hdpea reconstruct scan.ply mesh.ply --vertices 5000 --report report.json
   hdpea reconstruct scan.xyz mesh.glb --faces 20000 --picture mesh.png
-  zcat scan.xyz.gz | hdpea reconstruct - mesh.stl --watertight --fill-holes 5%
+  hdpea reconstruct a.ply b.laz c.e57 --out-dir meshes/ --json > made.jsonl
+  hdpea reconstruct front.ply back.ply mesh.ply --merge
+  zcat scan.xyz.gz | hdpea reconstruct - - --format stl > mesh.stl
 
 \b
 Exit codes: 0 ok, 1 internal error, 2 usage, 3 unreadable input,
 4 cannot reconstruct, 5 quality target missed, 130 interrupted, 143 terminated.
+Of several meshes, the gravest: 1, 4, 3, 2, then 5.
 """
 
 
 @click.command(cls=GroupedCommand, epilog=EPILOG, no_args_is_help=True, short_help="Make a mesh of a point cloud.")
-@click.argument("source", metavar="IN")
-@click.argument("output", metavar="OUT", type=PATH)
+@click.argument("files", metavar="IN... [OUT]", nargs=-1, required=True)
+@click.option("--out-dir", cls=GroupedOption, type=PATH, help="folder for a mesh of each IN, called IN.mesh.ply")
+@click.option(
+    "--jobs",
+    cls=GroupedOption,
+    type=click.IntRange(min=1),
+    default=1,
+    show_default=True,
+    help="with --out-dir: how many meshes are made at a time; each takes memory of its own",
+)
+@click.option("--merge", cls=GroupedOption, is_flag=True, help="take all IN as scans of one thing, in one frame")
+@click.option(
+    "--format",
+    "mesh_format",
+    cls=GroupedOption,
+    type=click.Choice(FORMATS),
+    help="of a mesh whose name does not say it: that of --out-dir, of no OUT (default: ply), or -",
+)
 @click.option("--report", cls=GroupedOption, type=PATH, help="write what was chosen and measured, as JSON")
 @click.option(
     "--dropped", cls=GroupedOption, type=PATH, help="write the points that were left out and why, as PLY or NPZ"
 )
 @click.option("--picture", cls=GroupedOption, type=PATH, help="draw the mesh, as PNG; needs no screen")
 @config_option
+@force_option
+@click.option("--json", "as_json", cls=GroupedOption, is_flag=True, help="print one line of JSON for each mesh")
+@click.option("--verbose", cls=GroupedOption, is_flag=True, help="also say what was chosen, and why")
 @quiet_option
 @setting_options("meshing", "cleaning", "normals", "denoising", "embedding", "particles", "refinement", "run")
 @click.pass_context
@@ -46,76 +81,106 @@ def command(
     ctx: click.Context,
     /,
     *,
-    source: str,
-    output: Path,
+    files: tuple[str, ...],
+    out_dir: Path | None,
+    jobs: int,
+    merge: bool,
+    mesh_format: str | None,
     report: Path | None,
     dropped: Path | None,
     picture: Path | None,
+    force: bool,
+    as_json: bool,
+    verbose: bool,
     quiet: bool,
     **values: Any,
 ) -> None:
     """Make a compact anisotropic triangle mesh of the point cloud IN.
 
     IN is PLY, text (XYZ, CSV, PTS, PWN), OBJ, OFF, NPY or NPZ; - reads standard input. Normals are
-    used if there are any. OUT is OBJ, PLY, STL, OFF or GLB, by its extension.
+    used if there are any. OUT is OBJ, PLY, STL, OFF or GLB, by its extension; - is standard output.
+    Without OUT the mesh is IN.mesh.ply, beside IN.
+
+    No IN is ever overwritten, nor is a scan in the place of OUT.
 
     Lengths are in the units of the file, or in percent of the diagonal of the cloud's bounding box.
     """
     options = chosen_options(ctx, values)
-    _check_outputs(output, report, dropped, picture)
-    check_distinct([source, options.embedding.weights, config_of(ctx)], [output, report, dropped, picture])
-    from hdpea.reading import read_points
-    from hdpea.runtime.clock import StageClock
-    from hdpea.runtime.progress import shown, tell
-    from hdpea.writing.meshes import write_mesh
-
-    clock = StageClock()
-    with shown(quiet) as progress:
-        tell(progress, "reading", 0.0)
-        with clock.stage("reading"):
-            cloud = read_points(source)
-        # Torch takes seconds to load, so this comes after all that may be wrong with the request.
-        tell(progress, "start-up", 0.0)
-        with clock.stage("start-up"):
-            from hdpea.reconstruction import reconstruct
-
-            # Or the clock would not see it: the stages load it when they first need it.
-            import_module("torch")
-        result = reconstruct(cloud, options=options, progress=progress)
-        result.report.begin_with(source, clock)
-        tell(progress, "writing", 0.0)
-        with result.report.clock.stage("writing"):
-            write_mesh(output, result.vertices, result.faces)
-        if report:
-            result.report.write(report)
-        if dropped:
-            from hdpea.writing.points import write_dropped
-
-            write_dropped(dropped, result.dropped.points, result.dropped.reasons)
-        if picture:
-            from hdpea.pictures.camera import mean_sight
-            from hdpea.pictures.picture import Camera, draw_mesh
-
-            tell(progress, "picture", 0.0)
-            camera = Camera.before(result.vertices, result.faces, mean_sight(cloud.points, cloud.sensors()))
-            draw_mesh(picture, result.vertices, result.faces, camera=camera)
-    if not quiet:
-        from hdpea.report.summary import summarize
-
-        click.echo(summarize(result.report), err=True)
-    if result.report.missed:
-        raise QualityMissed(" ".join(result.report.missed), f"The mesh is in {output} all the same.")
+    if out_dir is not None and (report or dropped or picture):
+        raise UsageError(
+            "`report`, `dropped` and `picture` are of one mesh, not of several.", "`as_json` tells of each."
+        )
+    wanted = [Job(each, options, report, dropped, picture) for each in destinations(files, out_dir, merge, mesh_format)]
+    if as_json and wanted[0].destination.output is None:
+        raise UsageError("Standard output is for the mesh or for `as_json`, not for both.", "Give a `report` instead.")
+    if out_dir is not None:
+        _make_folder(out_dir)
+    _check_outputs(wanted, [options.embedding.weights, config_of(ctx)], force)
+    if out_dir is not None:
+        _make_each(wanted, jobs, out_dir, as_json, quiet)
+    else:
+        _make_one(wanted[0], as_json, quiet, verbose)
 
 
-def _check_outputs(output: Path, report: Path | None, dropped: Path | None, picture: Path | None) -> None:
+def _check_outputs(wanted: Sequence[Job], read: Sequence[Path | str | None], force: bool) -> None:
     from hdpea.pictures.picture import PICTURE_FORMATS, check_drawing
     from hdpea.writing.meshes import MESH_FORMATS, POINT_FORMATS
 
-    check_output(output, MESH_FORMATS)
-    if report:
-        check_output(report, [".json"])
-    if dropped:
-        check_output(dropped, POINT_FORMATS)
-    if picture:
-        check_output(picture, PICTURE_FORMATS)
-        check_drawing()
+    formats = {"mesh": MESH_FORMATS, "report": [".json"], "picture": PICTURE_FORMATS}
+    kinds: dict[Path, str] = {}
+    for job in wanted:
+        for path, kind in job.outputs():
+            check_output(path, formats.get(kind, POINT_FORMATS))
+            kinds[path] = kind
+    sources = [source for job in wanted for source in job.destination.sources]
+    check_distinct([*sources, *read], [path for job in wanted for path, _ in job.outputs()])
+    for job in wanted:
+        if job.picture:
+            check_drawing()
+        require_no_scan(job.destination)
+    check_replaceable(kinds, force)
+
+
+def _make_folder(folder: Path) -> None:
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise UsageError(f"Cannot make the folder {folder}: {error.strerror}.", "Choose another.") from error
+
+
+def _make_one(job: Job, as_json: bool, quiet: bool, verbose: bool) -> None:
+    from hdpea.report.summary import summarize
+    from hdpea.runtime.progress import shown
+
+    try:
+        with shown(quiet) as progress:
+            report = make_mesh(job, progress)
+        error = missed(job, report)
+        if as_json:
+            click.echo(Ended.of(job, report, error).as_line())
+        if not quiet:
+            click.echo(summarize(report, job.destination.name, verbose), err=True)
+    except HdpeaError as failed:
+        if as_json:
+            click.echo(Ended.of(job, None, failed).as_line())
+        raise
+    if error is not None:
+        raise error
+
+
+def _make_each(jobs: Sequence[Job], parallel: int, out_dir: Path, as_json: bool, quiet: bool) -> None:
+    from hdpea.cli.batch import meshes_of_each, worst_of
+
+    all_ended = []
+    for ended in meshes_of_each(jobs, parallel, out_dir):
+        all_ended.append(ended)
+        if as_json:
+            click.echo(ended.as_line())
+            sys.stdout.flush()
+        if ended.kind is not None:
+            click.echo(f"{ended.name}: {ended.message} {ended.hint}".rstrip(), err=True)
+        elif not quiet:
+            click.echo(f"{ended.name}: {'; '.join(ended.summary)}", err=True)
+    error = worst_of(all_ended)
+    if error is not None:
+        raise error

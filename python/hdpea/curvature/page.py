@@ -14,6 +14,7 @@ from hdpea.curvature.glyphs import PLATE, UNDETERMINED, glyphs_of
 from hdpea.curvature.tensors import CurvatureTensors
 from hdpea.pictures.camera import choose_view_of_points
 from hdpea.pictures.colors import RAMP
+from hdpea.runtime.marks import mark_of
 from hdpea.runtime.outputs import check_output, replacing
 
 PAGE_FORMATS = (".html", ".htm")
@@ -53,6 +54,7 @@ def write_page(path: Path, tensors: CurvatureTensors, title: str = "curvature") 
     }
     determined = tensors.determined.mean()
     values = {
+        "mark": mark_of("page"),
         "title": html.escape(title),
         "points": f"{len(tensors.points):,}",
         "determined": f"{determined:.0%}",

@@ -6,7 +6,6 @@ from __future__ import annotations
 from collections.abc import Callable
 from importlib.util import find_spec
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,6 +13,7 @@ from numpy.typing import NDArray
 from hdpea.curvature.tensors import CurvatureTensors
 from hdpea.errors import UsageError
 from hdpea.runtime.outputs import check_output, replacing
+from hdpea.writing.marking import save_arrays
 from hdpea.writing.meshes import point_ply
 
 Rows = NDArray[np.float64]
@@ -82,13 +82,11 @@ def write_curvature(path: Path, tensors: CurvatureTensors) -> None:
 
 
 def _write_ply(path: Path, tensors: CurvatureTensors) -> None:
-    path.write_bytes(point_ply(tensors.points, tensors.normals, columns_of(tensors)))
+    path.write_bytes(point_ply(tensors.points, tensors.normals, columns_of(tensors), "curvature"))
 
 
 def _write_npz(path: Path, tensors: CurvatureTensors) -> None:
-    # Typed as anything, since numpy's types take names for its flags.
-    arrays: dict[str, Any] = {"points": tensors.points, **arrays_of(tensors)}
-    np.savez(path, **arrays)
+    save_arrays(path, "curvature", points=tensors.points, **arrays_of(tensors))
 
 
 def _write_csv(path: Path, tensors: CurvatureTensors) -> None:

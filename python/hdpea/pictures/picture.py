@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 
 from hdpea.errors import UsageError
 from hdpea.pictures.camera import choose_view, choose_view_of_points
+from hdpea.runtime.marks import mark_of
 from hdpea.runtime.outputs import check_output, replacing
 
 PICTURE_FORMATS = (".png",)
@@ -73,9 +74,18 @@ def drawn_to(path: Path, **settings: Any) -> Iterator[tuple[ModuleType, Any]]:
         plotter.background_color = pyvista.Color("white")
         yield pyvista, plotter
         with replacing(path) as partial:
-            plotter.screenshot(partial)
+            _save(partial, plotter.screenshot(return_img=True))
     finally:
         plotter.close()
+
+
+def _save(path: Path, pixels: NDArray[np.uint8]) -> None:
+    from PIL import Image
+    from PIL.PngImagePlugin import PngInfo
+
+    told = PngInfo()
+    told.add_text("Software", mark_of("picture"))
+    Image.fromarray(pixels).save(path, pnginfo=told)
 
 
 def light_up(pyvista: ModuleType, plotter: Any) -> None:

@@ -7,7 +7,7 @@ import re
 import struct
 import sys
 import zlib
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from difflib import get_close_matches
 from pathlib import Path, PurePath
 from tokenize import TokenError
@@ -17,12 +17,13 @@ from plyfile import PlyParseError
 
 from hdpea.errors import UnreadableInput
 from hdpea.reading.arrays import parse_npy, parse_npz
-from hdpea.reading.cloud import PointCloud, cleaned
+from hdpea.reading.cloud import PointCloud, cleaned, require_points
+from hdpea.reading.merging import merged
 from hdpea.reading.meshes import parse_obj, parse_off
 from hdpea.reading.ply import parse_ply
 from hdpea.reading.text import parse_text
 
-__all__ = ["CLOUD_FORMATS", "DAMAGE", "PointCloud", "parse_points", "read_bytes", "read_points"]
+__all__ = ["CLOUD_FORMATS", "DAMAGE", "PointCloud", "parse_points", "read_bytes", "read_points", "read_scans"]
 
 CLOUD_FORMATS = (
     ".ply", ".xyz", ".xyzn", ".txt", ".csv", ".asc", ".pts", ".pwn", ".obj", ".off", ".npy", ".npz"
@@ -80,12 +81,30 @@ def read_points(path: str | PurePath) -> PointCloud:
     UnreadableInput
         If the file is missing, cannot be opened, is damaged, of an unknown format, or has no points.
     """
+    return read_scans([path])
+
+
+def read_scans(paths: Sequence[str | PurePath]) -> PointCloud:
+    """Read scans of one thing, in one frame and unit, as one cloud.
+
+    Raises
+    ------
+    UnreadableInput
+        If one of them is what ``read_points`` cannot read, or they cannot be one cloud.
+    """
+    clouds = [_read(path) for path in paths]
+    return cleaned(clouds[0] if len(clouds) == 1 else merged(clouds))
+
+
+def _read(path: str | PurePath) -> PointCloud:
     name = "standard input" if str(path) == "-" else str(path)
     data = _standard_input() if str(path) == "-" else read_bytes(Path(path))
     try:
-        return cleaned(parse_points(data, Path(path).suffix.lower()))
+        cloud = parse_points(data, Path(path).suffix.lower())
+        require_points(cloud)
     except UnreadableInput as error:
         raise UnreadableInput(f"Cannot read {name}: {error.message}", error.hint) from error
+    return cloud
 
 
 def _standard_input() -> bytes:

@@ -165,13 +165,7 @@ def cleaned(cloud: PointCloud) -> PointCloud:
     UnreadableInput
         If no point is left.
     """
-    if len(cloud.points) == 0:
-        raise UnreadableInput("there are no points in it.", "Check that the export of the points succeeded.")
-    finite = np.flatnonzero(np.isfinite(cloud.points).all(axis=1))
-    if len(finite) == 0:
-        raise UnreadableInput(
-            f"none of its {len(cloud.points)} points is finite.", "NaN and infinite points are dropped."
-        )
+    finite = np.flatnonzero(require_points(cloud))
     kept = finite[first_occurrences(cloud.points[finite])]
     chosen = cloud.at(kept)
     normals = None if chosen.normals is None else unit_or_zero(chosen.normals)
@@ -187,6 +181,24 @@ def cleaned(cloud: PointCloud) -> PointCloud:
         clean=True,
         notes=cloud.notes + _cleaning_notes(non_finite, duplicates, unusable),
     )
+
+
+def require_points(cloud: PointCloud) -> NDArray[np.bool_]:
+    """Return which points (n,) are finite.
+
+    Raises
+    ------
+    UnreadableInput
+        If none is, or there are none.
+    """
+    if len(cloud.points) == 0:
+        raise UnreadableInput("there are no points in it.", "Check that the export of the points succeeded.")
+    finite = np.asarray(np.isfinite(cloud.points).all(axis=1))
+    if not finite.any():
+        raise UnreadableInput(
+            f"none of its {len(cloud.points)} points is finite.", "NaN and infinite points are dropped."
+        )
+    return finite
 
 
 def _cleaning_notes(non_finite: int, duplicates: int, unusable: int) -> tuple[str, ...]:

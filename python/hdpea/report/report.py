@@ -16,6 +16,7 @@ from hdpea.options.choice import Choice
 from hdpea.options.settings import as_dict
 from hdpea.report.agreement import Agreement
 from hdpea.runtime.clock import StageClock
+from hdpea.runtime.marks import mark_of
 from hdpea.runtime.outputs import replacing
 from hdpea.version import version
 
@@ -121,6 +122,7 @@ class Report(Journal):
     def as_dict(self) -> dict[str, Any]:
         """Return the whole report, fit for JSON."""
         return {
+            "generator": mark_of("report"),
             "version": version(),
             "options": as_dict(self.options),
             "source": self.source,
@@ -145,9 +147,13 @@ class Report(Journal):
             If the file cannot be written.
         """
         with replacing(path) as partial:
-            # JSON has no NaN, and a report must not fail for one: it becomes null.
-            strict = json.loads(json.dumps(self.as_dict(), default=_plain), parse_constant=lambda _: None)
-            partial.write_text(json.dumps(strict, indent=2) + "\n")
+            partial.write_text(json.dumps(self.as_json(), indent=2) + "\n")
+
+    def as_json(self) -> dict[str, Any]:
+        """Return the whole report of nothing but what JSON knows."""
+        # JSON has no NaN, and a report must not fail for one: it becomes null.
+        strict: dict[str, Any] = json.loads(json.dumps(self.as_dict(), default=_plain), parse_constant=lambda _: None)
+        return strict
 
 
 def _plain(value: Any) -> Any:

@@ -9,18 +9,21 @@ from hdpea.options.choice import Choice
 from hdpea.report.report import Distances, MeshFacts, Report
 
 
-def summarize(report: Report) -> str:
-    """Return what was chosen, what came out and what it took; a line each."""
-    return "\n".join(_lines(report))
+def summarize(report: Report, where: str, verbose: bool = False) -> str:
+    """Return what came out, how good it is and `where` it is: three lines, after what is unusual, a line each.
+
+    If `verbose`, what was chosen, and why, comes before.
+    """
+    total = report.clock.total()
+    chosen = map(describe, report.choices) if verbose else ()
+    took = f"{where}: written after {total.seconds:.1f} s, with at most {total.peak_bytes / 1e9:.2f} GB of memory"
+    return "\n".join([*chosen, *report.notes, *outcome(report), took])
 
 
-def _lines(report: Report) -> Iterator[str]:
-    yield from map(describe, report.choices)
-    yield from report.notes
+def outcome(report: Report) -> Iterator[str]:
+    """Yield what came out, and how good it is; a line each."""
     yield _mesh(report.mesh)
     yield _distances(report.distances)
-    total = report.clock.total()
-    yield f"took {total.seconds:.1f} s, at most {total.peak_bytes / 1e9:.2f} GB"
 
 
 def describe(choice: Choice) -> str:

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import os
 import secrets
+import shutil
 import stat
 import tempfile
 from collections.abc import Collection, Iterable, Iterator
@@ -125,9 +126,33 @@ def replacing(path: Path) -> Iterator[Path]:
         _unfinished.discard(partial)
 
 
+@contextmanager
+def unfinished_folder(beside: Path) -> Iterator[Path]:
+    """Give a temporary folder in the folder `beside`, out of which finished files are moved; it vanishes in the end.
+
+    Raises
+    ------
+    UsageError
+        If it cannot be made.
+    """
+    folder = beside / f".{secrets.token_hex(4)}.{os.getpid()}"
+    _unfinished.add(folder)
+    try:
+        folder.mkdir()
+    except OSError as error:
+        _unfinished.discard(folder)
+        raise UsageError(f"Cannot write in {beside}: {error.strerror}.", "Choose a folder you may write in.") from error
+    try:
+        yield folder
+    finally:
+        shutil.rmtree(folder, ignore_errors=True)
+        _unfinished.discard(folder)
+
+
 def remove_unfinished() -> None:
     """Remove what is half written, for a process that must end at once."""
     for partial in list(_unfinished):
+        shutil.rmtree(partial, ignore_errors=True)
         with suppress(OSError):
             partial.unlink(missing_ok=True)
 

@@ -11,6 +11,7 @@ from collections import deque
 from collections.abc import Callable, Generator, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
+from math import inf
 from multiprocessing import get_context, parent_process
 from multiprocessing.connection import Connection, wait
 from typing import Generic, TypeVar
@@ -32,7 +33,7 @@ class Outcome(Generic[Result]):
 
 
 def run_isolated(
-    function: Callable[[Task], Result], tasks: Sequence[Task], jobs: int, time_limit: float
+    function: Callable[[Task], Result], tasks: Sequence[Task], jobs: int, time_limit: float = inf, fresh: bool = False
 ) -> Generator[Outcome[Result], None, None]:
     """Apply `function` to every task, `jobs` at a time; yield the outcomes as they come, in any order.
 
@@ -43,14 +44,16 @@ def run_isolated(
     ----------
     function
         Of a module, since the processes import it; tasks and results must be picklable.
+    fresh
+        Whether each task has a process of its own, so that no memory of one is held during the next.
     """
     waiting = deque(enumerate(tasks))
-    workers = [_Worker(function) for _ in range(min(jobs, len(tasks)))]
+    workers = [_Worker(function, fresh) for _ in range(min(jobs, len(tasks)))]
     try:
         busy = [worker for worker in workers if worker.take(waiting)]
         while busy:
             soonest = min(worker.started for worker in busy) + time_limit - time.monotonic()
-            ready = wait([worker.connection for worker in busy], max(soonest, 0))
+            ready = wait([worker.connection for worker in busy], None if soonest == inf else max(soonest, 0))
             for worker in busy:
                 if worker.connection in ready:
                     yield worker.outcome()
@@ -69,8 +72,8 @@ def run_isolated(
 class _Worker(Generic[Task, Result]):
     """A process that does one task after another, and is replaced by another when it breaks."""
 
-    def __init__(self, function: Callable[[Task], Result]) -> None:
-        self._function = function
+    def __init__(self, function: Callable[[Task], Result], fresh: bool) -> None:
+        self._function, self._fresh, self._used = function, fresh, False
         self.index, self.started, self.idle = 0, 0.0, True
         self._start()
 
@@ -86,8 +89,11 @@ class _Worker(Generic[Task, Result]):
         """Begin the next task; False if there is none."""
         if not waiting:
             return False
+        if self._fresh and self._used:
+            self.end()
         if not self._process.is_alive():
             self._start()
+        self._used = True
         self.index, task = waiting.popleft()
         self.started, self.idle = time.monotonic(), False
         self.connection.send(task)

@@ -15,6 +15,7 @@ from plyfile import PlyData, PlyElement
 from hdpea.errors import UsageError
 from hdpea.geometry.unit_frame import diagonal_of
 from hdpea.runtime.outputs import check_output, replacing
+from hdpea.writing.marking import marked, save_arrays
 
 Points = NDArray[np.float64]
 Faces = NDArray[np.int64]
@@ -49,9 +50,20 @@ def write_mesh(path: str | Path, vertices: ArrayLike, faces: ArrayLike) -> None:
     """
     path = Path(path)
     check_output(path, MESH_FORMATS)
-    vertices, faces = _checked(vertices, faces)
+    content = mesh_content(path.suffix.lower(), vertices, faces)
     with replacing(path) as partial:
-        partial.write_bytes(MESH_FORMATS[path.suffix.lower()](vertices, faces))
+        partial.write_bytes(content)
+
+
+def mesh_content(extension: str, vertices: ArrayLike, faces: ArrayLike) -> bytes:
+    """Return what ``write_mesh`` writes, for an extension of ``MESH_FORMATS``.
+
+    Raises
+    ------
+    UsageError
+        If the arrays are no mesh.
+    """
+    return marked(MESH_FORMATS[extension](*_checked(vertices, faces)), extension)
 
 
 def _checked(vertices: ArrayLike, faces: ArrayLike) -> tuple[Points, Faces]:
@@ -88,16 +100,16 @@ def write_points(path: Path, points: Points, normals: Points, coordinates: Point
     check_output(path, POINT_FORMATS)
     with replacing(path) as partial:
         if path.suffix.lower() == ".npz":
-            np.savez(partial, points=points, normals=normals, coordinates=coordinates)
+            save_arrays(partial, "embedding", points=points, normals=normals, coordinates=coordinates)
         else:
             others = {f"embedding_{i}": column for i, column in enumerate(coordinates.T)}
-            partial.write_bytes(point_ply(points, normals, others))
+            partial.write_bytes(point_ply(points, normals, others, "embedding"))
 
 
-def point_ply(points: Points, normals: Points, others: Mapping[str, NDArray[np.float64]]) -> bytes:
-    """Return the content of a PLY file of points (n, 3), their normals (n, 3) and other properties by name (n,)."""
+def point_ply(points: Points, normals: Points, others: Mapping[str, NDArray[np.float64]], kind: str = "scan") -> bytes:
+    """Return the content of a PLY file of points (n, 3), normals (n, 3) and other properties (n,), marked as `kind`."""
     table = np.column_stack([points, normals, *others.values()])
-    return _ply(_records(table, ["x", "y", "z", "nx", "ny", "nz", *others]))
+    return marked(_ply(_records(table, ["x", "y", "z", "nx", "ny", "nz", *others])), ".ply", kind)
 
 
 def _obj(vertices: Points, faces: Faces) -> bytes:

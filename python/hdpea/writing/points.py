@@ -9,7 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 from plyfile import PlyData, PlyElement
 
+from hdpea.runtime.marks import mark_of
 from hdpea.runtime.outputs import check_output, replacing
+from hdpea.writing.marking import save_arrays
 from hdpea.writing.meshes import POINT_FORMATS
 
 REASONS = "reason 1: lies on no surface; 2: crowds on scan lines"
@@ -31,9 +33,10 @@ def write_dropped(path: Path, points: NDArray[np.float64], reasons: NDArray[np.u
     check_output(path, POINT_FORMATS)
     with replacing(path) as partial:
         if path.suffix.lower() == ".npz":
-            np.savez(partial, points=points, reason=reasons)
+            save_arrays(partial, "set of dropped points", points=points, reason=reasons)
             return
         table = np.empty(len(points), [("x", "<f8"), ("y", "<f8"), ("z", "<f8"), ("reason", "u1")])
         table["x"], table["y"], table["z"] = points.T
         table["reason"] = reasons
-        PlyData([PlyElement.describe(table, "vertex")], byte_order="<", comments=[REASONS]).write(str(partial))
+        comments = [mark_of("set of dropped points"), REASONS]
+        PlyData([PlyElement.describe(table, "vertex")], byte_order="<", comments=comments).write(str(partial))

@@ -38,7 +38,7 @@ def scan(tmp_path: Path) -> str:
 
 
 def test_a_mesh_is_made_and_summed_up(scan: str, tmp_path: Path, capsys: Capture) -> None:
-    assert run(["reconstruct", scan, str(tmp_path / "mesh.obj")]) == 0
+    assert run(["reconstruct", scan, str(tmp_path / "mesh.obj"), "--verbose"]) == 0
     assert len(trimesh.load(tmp_path / "mesh.obj", process=False).faces) == 200
     told = capsys.readouterr()
     assert told.out == ""

@@ -163,14 +163,14 @@ def test_ctrl_c_ends_at_once_and_leaves_nothing(sleeping: list[str], tmp_path: P
 @pytest.mark.parametrize("phase", ["embedding", "particles"])
 def test_ctrl_c_ends_a_real_run_wherever_it_is(phase: str, tmp_path: Path) -> None:
     np.save(tmp_path / "scan.npy", clouds.sphere(40_000)[0])
-    (tmp_path / "mesh.obj").write_text("the mesh of the last run")
+    (tmp_path / "mesh.obj").write_text("# made by hdpea: mesh")
     script = command("reconstruct", tmp_path / "scan.npy", tmp_path / "mesh.obj", "--report", tmp_path / "told.json")
     exit_code, told = interrupted(script, phase)
     assert exit_code == 130
     assert "Error: Interrupted" in told
     assert "Traceback" not in told
     assert {each.name for each in tmp_path.iterdir()} == {"scan.npy", "mesh.obj"}
-    assert (tmp_path / "mesh.obj").read_text() == "the mesh of the last run"
+    assert (tmp_path / "mesh.obj").read_text() == "# made by hdpea: mesh"
 
 
 @pytest.mark.parametrize(("number", "code"), [(signal.SIGINT, 130), (signal.SIGTERM, 143)])

@@ -73,8 +73,10 @@ def test_distances_in_both_units() -> None:
 
 
 def test_summary_is_short_and_says_what_came_out() -> None:
-    lines = summarize(filled()).splitlines()
+    lines = summarize(filled(), "mesh.obj", verbose=True).splitlines()
     assert len(lines) == 5
+    assert lines[-1].startswith("mesh.obj: written after")
+    assert len(summarize(filled(), "mesh.obj").splitlines()) == 4
     assert "mesh: 5,000 vertices, 9,996 faces, manifold, closed, 1 component, genus 0" in lines
     assert "curvature radius: 0.0123 world units (twice the vertex spacing)" in lines
 
@@ -84,5 +86,5 @@ def test_summary_does_not_hide_a_bad_mesh() -> None:
         SPHERE, manifold=False, closed=False, components=2, boundary_loops=3, genus=None, self_intersections=1
     )
     assert "NOT manifold, 3 boundary loops, 2 components, 1 self-intersection" in summarize(
-        report_of(Journal(options=Options()), torn)
+        report_of(Journal(options=Options()), torn), "mesh.obj"
     )

@@ -35,6 +35,11 @@ def test_a_task_that_takes_too_long_is_given_up() -> None:
     assert outcomes == {0: "It took longer than 3 s.", 1: ""}
 
 
+def test_fresh_processes_do_one_task_each() -> None:
+    groups = [each.result for each in run_isolated(os.getpgid, [0, 0, 0], 1, fresh=True)]
+    assert len(set(groups)) == 3
+
+
 def test_who_stops_asking_ends_the_processes() -> None:
     outcomes = run_isolated(time.sleep, [0, 60, 60], 2, 60)
     next(outcomes)

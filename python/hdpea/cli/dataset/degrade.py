@@ -9,7 +9,7 @@ from typing import Any
 
 import click
 
-from hdpea.cli.parameters import PATH, GroupedCommand, setting_options
+from hdpea.cli.parameters import PATH, GroupedCommand, force_option, setting_options
 from hdpea.dataset.options import DegradationOptions
 
 EPILOG = """\b
@@ -22,8 +22,9 @@ Examples:
 @click.command(cls=GroupedCommand, epilog=EPILOG, no_args_is_help=True, short_help="Degrade a sample.")
 @click.argument("source", metavar="IN", type=PATH)
 @click.argument("output", metavar="OUT", type=PATH)
+@force_option
 @setting_options("run", owner=DegradationOptions, heading="Degradation")
-def command(source: Path, output: Path, **values: Any) -> None:
+def command(source: Path, output: Path, force: bool, **values: Any) -> None:
     """Degrade the sample IN to resemble a scan, and write it as OUT; both are NPZ.
 
     The truth remains that of the surface points that the points represent; estimated normals, if IN
@@ -33,11 +34,13 @@ def command(source: Path, output: Path, **values: Any) -> None:
     from hdpea.dataset.normal_estimation import estimated_normals
     from hdpea.dataset.sample_file import SAMPLE_FORMATS, read_sample, write_sample
     from hdpea.options.settings import filled
+    from hdpea.runtime.marks import check_replaceable
     from hdpea.runtime.outputs import check_distinct, check_output
 
     options = filled(DegradationOptions, values)
     check_output(output, SAMPLE_FORMATS)
     check_distinct([source], [output])
+    check_replaceable({output: "sample"}, force)
     sample = read_sample(source)
     worse = degraded(sample, options)
     if sample.estimated_normals is not None:

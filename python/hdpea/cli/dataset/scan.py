@@ -9,7 +9,7 @@ from typing import Any
 
 import click
 
-from hdpea.cli.parameters import PATH, GroupedCommand, quiet_option, setting_options
+from hdpea.cli.parameters import PATH, GroupedCommand, force_option, quiet_option, setting_options
 from hdpea.dataset.options import DatasetOptions
 
 EPILOG = """\b
@@ -25,9 +25,10 @@ Examples:
 @click.command(cls=GroupedCommand, epilog=EPILOG, no_args_is_help=True, short_help="Scan a mesh as a sensor would.")
 @click.argument("mesh", type=PATH)
 @click.argument("output", metavar="OUT", type=PATH)
+@force_option
 @quiet_option
 @setting_options("scanning", "ground_truth", also=["points", "seed", "estimate"], owner=DatasetOptions)
-def command(mesh: Path, output: Path, quiet: bool, **values: Any) -> None:
+def command(mesh: Path, output: Path, force: bool, quiet: bool, **values: Any) -> None:
     """Scan the closed mesh MESH by a simulated range sensor.
 
     OUT is PLY or NPZ. PLY holds the points in the coordinates of the mesh, with the normals of its
@@ -42,6 +43,7 @@ def command(mesh: Path, output: Path, quiet: bool, **values: Any) -> None:
     """
     from hdpea.dataset.surface_file import read_surface
     from hdpea.options.settings import filled
+    from hdpea.runtime.marks import check_replaceable
     from hdpea.runtime.outputs import check_distinct, check_output
     from hdpea.runtime.progress import shown, tell
     from hdpea.writing.meshes import POINT_FORMATS
@@ -49,6 +51,7 @@ def command(mesh: Path, output: Path, quiet: bool, **values: Any) -> None:
     options = filled(DatasetOptions, values)
     check_output(output, POINT_FORMATS)
     check_distinct([mesh], [output])
+    check_replaceable({output: "scan"}, force)
     with shown(quiet) as progress:
         tell(progress, "reading", 0.0)
         vertices, faces = read_surface(mesh)

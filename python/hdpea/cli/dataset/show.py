@@ -7,7 +7,7 @@ from pathlib import Path
 
 import click
 
-from hdpea.cli.parameters import PATH, GroupedCommand
+from hdpea.cli.parameters import PATH, GroupedCommand, force_option
 
 EPILOG = """\b
 Examples:
@@ -18,7 +18,8 @@ Examples:
 @click.command(cls=GroupedCommand, epilog=EPILOG, no_args_is_help=True, short_help="Draw a sample.")
 @click.argument("source", metavar="IN", type=PATH)
 @click.argument("output", metavar="OUT", type=PATH)
-def command(source: Path, output: Path) -> None:
+@force_option
+def command(source: Path, output: Path, force: bool) -> None:
     """Draw the sample IN three times in the PNG file OUT; needs no screen.
 
     From left to right: the normals as colours; the first three principal components of psi as
@@ -28,9 +29,11 @@ def command(source: Path, output: Path) -> None:
     from hdpea.dataset.sample_file import read_sample
     from hdpea.dataset.sample_picture import draw_sample
     from hdpea.pictures.picture import PICTURE_FORMATS, check_drawing
+    from hdpea.runtime.marks import check_replaceable
     from hdpea.runtime.outputs import check_distinct, check_output
 
     check_output(output, PICTURE_FORMATS)
     check_distinct([source], [output])
+    check_replaceable({output: "picture"}, force)
     check_drawing()
     draw_sample(output, read_sample(source))

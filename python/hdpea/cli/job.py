@@ -1,0 +1,152 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""One mesh: what is read, made and written for it."""
+
+from __future__ import annotations
+
+import json
+import sys
+from dataclasses import dataclass
+from importlib import import_module
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from hdpea.cli.destinations import Destination
+from hdpea.errors import HdpeaError, QualityMissed, core_errors_translated
+from hdpea.options import Options
+from hdpea.runtime.progress import ProgressCallback, tell
+
+if TYPE_CHECKING:
+    from hdpea.reconstruction import Reconstruction
+    from hdpea.report.report import Report
+
+
+@dataclass(frozen=True)
+class Job:
+    """A mesh that is wanted, and what else is to be written about it."""
+
+    destination: Destination
+    options: Options
+    report: Path | None = None
+    dropped: Path | None = None
+    picture: Path | None = None
+
+    def outputs(self) -> list[tuple[Path, str]]:
+        """Return the files that are to be written, and the kind of each."""
+        kinds = {"mesh": self.destination.output, "report": self.report, "picture": self.picture}
+        kinds["set of dropped points"] = self.dropped
+        return [(path, kind) for kind, path in kinds.items() if path is not None]
+
+
+@dataclass(frozen=True)
+class Ended:
+    """What became of a job: the report, if there is a mesh, and the error, if there was one."""
+
+    sources: tuple[str, ...]
+    output: str
+    report: dict[str, Any] | None = None
+    summary: tuple[str, ...] = ()
+    kind: type[HdpeaError] | None = None
+    message: str = ""
+    hint: str = ""
+
+    @property
+    def name(self) -> str:
+        """What people call it by."""
+        return ", ".join(self.sources)
+
+    @classmethod
+    def of(cls, job: Job, report: Report | None, error: HdpeaError | None) -> Ended:
+        """Sum up a job."""
+        from hdpea.report.summary import outcome
+
+        return cls(
+            job.destination.sources,
+            job.destination.name,
+            None if report is None else report.as_json(),
+            () if report is None else tuple(outcome(report)),
+            None if error is None else type(error),
+            "" if error is None else error.message,
+            "" if error is None else error.hint,
+        )
+
+    def as_line(self) -> str:
+        """Return one line of JSON."""
+        facts = {
+            "inputs": self.sources,
+            "output": self.output,
+            "exit_code": 0 if self.kind is None else self.kind.exit_code,
+            "error": self.message or None,
+            "hint": self.hint or None,
+            "report": self.report,
+        }
+        return json.dumps(facts)
+
+
+def make_mesh(job: Job, progress: ProgressCallback | None) -> Report:
+    """Read, reconstruct and write; the report is that of the mesh, and lists what was missed.
+
+    Raises
+    ------
+    HdpeaError
+        Of any kind, if there is no mesh.
+    """
+    from hdpea.reading import read_scans
+    from hdpea.runtime.clock import StageClock
+
+    clock, sources = StageClock(), job.destination.sources
+    tell(progress, "reading", 0.0)
+    with clock.stage("reading"):
+        cloud = read_scans(sources)
+    # Torch takes seconds to load, so this comes after all that may be wrong with the request.
+    tell(progress, "start-up", 0.0)
+    with clock.stage("start-up"):
+        from hdpea.reconstruction import reconstruct
+
+        # Or the clock would not see it: the stages load it when they first need it.
+        import_module("torch")
+    result = reconstruct(cloud, options=job.options, progress=progress)
+    result.report.begin_with(", ".join(sources), clock)
+    tell(progress, "writing", 0.0)
+    with result.report.clock.stage("writing"):
+        _write_mesh(job.destination, result)
+    if job.report:
+        result.report.write(job.report)
+    if job.dropped:
+        from hdpea.writing.points import write_dropped
+
+        write_dropped(job.dropped, result.dropped.points, result.dropped.reasons)
+    if job.picture:
+        from hdpea.pictures.camera import mean_sight
+        from hdpea.pictures.picture import Camera, draw_mesh
+
+        tell(progress, "picture", 0.0)
+        camera = Camera.before(result.vertices, result.faces, mean_sight(cloud.points, cloud.sensors()))
+        draw_mesh(job.picture, result.vertices, result.faces, camera=camera)
+    return result.report
+
+
+def _write_mesh(destination: Destination, result: Reconstruction) -> None:
+    from hdpea.writing.meshes import mesh_content, write_mesh
+
+    if destination.output is not None:
+        write_mesh(destination.output, result.vertices, result.faces)
+        return
+    sys.stdout.buffer.write(mesh_content(destination.extension, result.vertices, result.faces))
+    sys.stdout.buffer.flush()
+
+
+def missed(job: Job, report: Report) -> QualityMissed | None:
+    """Return the error of a mesh that is not what was asked for, if it is not."""
+    if not report.missed:
+        return None
+    return QualityMissed(" ".join(report.missed), f"The mesh is in {job.destination.name} all the same.")
+
+
+def attempt(job: Job) -> Ended:
+    """Do a job in a process of its own."""
+    try:
+        with core_errors_translated():
+            report = make_mesh(job, None)
+    except HdpeaError as error:
+        return Ended.of(job, None, error)
+    return Ended.of(job, report, missed(job, report))
