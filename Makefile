@@ -21,7 +21,7 @@ DEBIAN_PACKAGES := $(BUILD_PACKAGES) $(DEMO_PACKAGES)
 SCANS := /usr/share/doc/libcgal-dev/data.tar.gz
 
 PACKAGE_SOURCES := CMakeLists.txt pyproject.toml $(shell find src python -type f -not -name '*.pyc')
-CPP_SOURCES := $(shell find src tests/cpp -name '*.[ch]pp')
+CPP_SOURCES := $(shell find src tests/cpp examples/cpp -name '*.[ch]pp')
 
 .NOTPARALLEL:
 .PHONY: help setup demo test lint format core sanitize pytest fuzz bench-setup results losses trained-losses clean debian
