@@ -67,8 +67,10 @@ def command(
     from hdpea.reading import read_points
     from hdpea.runtime.clock import StageClock
     from hdpea.runtime.progress import shown, tell
+    from hdpea.runtime.pytorch import check_pytorch
     from hdpea.writing.meshes import write_mesh
 
+    check_pytorch()
     clock = StageClock()
     with shown(quiet) as progress:
         tell(progress, "reading", 0.0)
