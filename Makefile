@@ -94,7 +94,7 @@ wheel: debian $(VENV)/.dependencies
 	$(BIN)/pip install -qq -c $(CONSTRAINTS) --group wheel
 	rm -rf build/wheel
 	$(BIN)/python -m build --no-isolation --sdist --outdir dist
-	$(BIN)/pip wheel -qq --no-deps --no-build-isolation --wheel-dir build/wheel dist/hdpea-*.tar.gz
+	$(BIN)/pip wheel -qq --no-deps --no-build-isolation --wheel-dir build/wheel .
 	PATH="$(abspath $(BIN)):$$PATH" $(BIN)/auditwheel repair --strip --wheel-dir dist build/wheel/hdpea-*.whl
 
 # ---- demo ------------------------------------------------------------------------------------------
