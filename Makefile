@@ -21,10 +21,10 @@ DEBIAN_PACKAGES := $(BUILD_PACKAGES) $(DEMO_PACKAGES)
 SCANS := /usr/share/doc/libcgal-dev/data.tar.gz
 
 PACKAGE_SOURCES := CMakeLists.txt pyproject.toml $(shell find src python -type f -not -name '*.pyc')
-CPP_SOURCES := $(shell find src tests/cpp -name '*.[ch]pp')
+CPP_SOURCES := $(shell find src tests/cpp examples/cpp -name '*.[ch]pp')
 
 .NOTPARALLEL:
-.PHONY: help setup demo test lint format core sanitize pytest fuzz bench-setup results losses trained-losses clean debian
+.PHONY: help setup demo wheel test lint format core sanitize pytest fuzz bench-setup results losses trained-losses clean debian
 
 help:
 	@echo "make demo      reconstruct two real scans into $(DEMO)/"
@@ -35,9 +35,10 @@ help:
 	@echo "make pytest    the Python tests, on the installed package"
 	@echo "make fuzz      random clouds and damaged files, see docs/robustness.md"
 	@echo "make results   one suite of benchmarks, see docs/benchmark.md; make losses trains for one"
+	@echo "make wheel     wheel and sdist into dist/, see docs/releasing.md"
 	@echo "make setup     Debian packages, $(VENV)/, the package in it"
 	@echo "make format    let ruff and clang-format rewrite the sources"
-	@echo "make clean     remove build/, $(VENV)/ and $(DEMO)/"
+	@echo "make clean     remove build/, dist/, $(VENV)/ and $(DEMO)/"
 
 # ---- set-up ----------------------------------------------------------------------------------------
 
@@ -63,14 +64,14 @@ $(VENV)/.dependencies: pyproject.toml $(CONSTRAINTS) | debian
 # Not isolated, since an isolated build would compile nanobind anew each time.
 $(VENV)/.package: $(VENV)/.dependencies $(PACKAGE_SOURCES)
 	@echo "== Building and installing hdpea into $(VENV)/"
-	$(BIN)/pip install -qq -c $(CONSTRAINTS) --no-build-isolation '.[dataset,picture]'
+	$(BIN)/pip install -qq -c $(CONSTRAINTS) --no-build-isolation '.[dataset,picture,torch]'
 	@touch $@
 
 setup: debian $(VENV)/.package
 
 bench-setup: setup
 	$(BIN)/pip install -qq -c $(CONSTRAINTS) --group bench
-	$(BIN)/pip install -qq -c $(CONSTRAINTS) --no-build-isolation '.[benchmark,dataset,picture]'
+	$(BIN)/pip install -qq -c $(CONSTRAINTS) --no-build-isolation '.[benchmark,dataset,picture,torch]'
 
 # One suite into docs/results/: make results SUITE=quick MESHES=meshes/ [MODELS="--models 5"]
 results: RESULTS = results/$(basename $(notdir $(SUITE)))
@@ -87,6 +88,14 @@ trained-losses: bench-setup
 	$(BIN)/hdpea dataset build $(TRAINING) build/training
 	$(BIN)/hdpea dataset build $(MESHES) build/validation
 	$(BIN)/python benchmarks/training_ablation.py build/training build/validation build/losses --steps 500
+
+# The wheel brings TBB, GMP and MPFR, and runs where glibc is no older than here. Another Python: PYTHON, and a VENV for it.
+wheel: debian $(VENV)/.dependencies
+	$(BIN)/pip install -qq -c $(CONSTRAINTS) --group wheel
+	rm -rf build/wheel
+	$(BIN)/python -m build --no-isolation --sdist --outdir dist
+	$(BIN)/pip wheel -qq --no-deps --no-build-isolation --wheel-dir build/wheel .
+	PATH="$(abspath $(BIN)):$$PATH" $(BIN)/auditwheel repair --strip --wheel-dir dist build/wheel/hdpea-*.whl
 
 # ---- demo ------------------------------------------------------------------------------------------
 
@@ -149,4 +158,4 @@ fuzz: setup
 	  --clouds $(CLOUDS) --files $(FILES) --commands $(COMMANDS) --core $(CORE)
 
 clean:
-	rm -rf build $(VENV) $(DEMO)
+	rm -rf build dist $(VENV) $(DEMO)

@@ -22,6 +22,7 @@ from hdpea.report.agreement import agreement_of
 from hdpea.report.measurement import distances_to, mesh_facts, missed_targets
 from hdpea.report.report import Journal, Report
 from hdpea.runtime.progress import ProgressCallback, tell
+from hdpea.runtime.pytorch import check_pytorch
 from hdpea.runtime.threads import limited_threads
 from hdpea.surface.preparation import prepare_surface
 
@@ -123,7 +124,7 @@ def reconstruct(
         If the points are too few, equal, on a line, or hold no triangle.
     UsageError
         If the arrays are not of these shapes, an option is illegal, more vertices are asked for than there are
-        points, or a viewpoint is asked for and there is none.
+        points, a viewpoint is asked for and there is none, or PyTorch is not installed.
     UnreadableInput
         If no point is finite, or the given normals, or their signs, are insisted on and unusable.
     Interrupted
@@ -151,6 +152,7 @@ def reconstruct(
     }
     given = {name: value for name, value in common.items() if value is not None}
     options = changed(options or Options(), given)
+    check_pytorch()
     journal = Journal(options=options)
     clock = journal.clock
     with limited_threads(options.threads), core_errors_translated():

@@ -28,9 +28,9 @@ Begin with:
 
 def _print_version(ctx: click.Context, _: click.Parameter, wanted: bool) -> None:
     if wanted:
-        from hdpea.version import version
+        from hdpea.version import described
 
-        click.echo(f"hdpea {version()}")
+        click.echo("\n".join(described()))
         ctx.exit()
 
 
@@ -40,7 +40,12 @@ def _print_version(ctx: click.Context, _: click.Parameter, wanted: bool) -> None
     context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100},
 )
 @click.option(
-    "--version", is_flag=True, is_eager=True, expose_value=False, callback=_print_version, help="Show the version."
+    "--version",
+    is_flag=True,
+    is_eager=True,
+    expose_value=False,
+    callback=_print_version,
+    help="Show the version, and what it is made of.",
 )
 @click.option("--debug", is_flag=True, help=f"Show where an error came from, as {TRACEBACK}=1 does.")
 def hdpea(debug: bool) -> None:

@@ -116,6 +116,9 @@ def command(
     if out_dir is not None:
         _make_folder(out_dir)
     _check_outputs(wanted, [options.embedding.weights, config_of(ctx)], force)
+    from hdpea.runtime.pytorch import check_pytorch
+
+    check_pytorch()
     if out_dir is not None:
         _make_each(wanted, jobs, out_dir, as_json, quiet)
     else:

@@ -93,10 +93,12 @@ def command(
     options = filled(TrainingOptions, values)
     from hdpea.dataset.loading import Dataset
     from hdpea.runtime.outputs import check_output
+    from hdpea.runtime.pytorch import check_pytorch
     from hdpea.training.journal import LAST
     from hdpea.training.stopping import stop_requests
     from hdpea.training.workers import joined_workers
 
+    check_pytorch()
     datasets = [Dataset(folder) for folder in (dataset, *also)]
     judged = Dataset(validation) if validation else None
     out.mkdir(exist_ok=True) if out.parent.is_dir() else None

@@ -14,6 +14,7 @@ from hdpea.geometry.thinning import thinned
 from hdpea.options import EmbeddingOptions
 from hdpea.options.choice import Choice
 from hdpea.runtime.progress import PhaseCallback
+from hdpea.runtime.pytorch import check_pytorch
 from hdpea.surface.surface import NEIGHBORS, Surface, area_shown
 
 PER_VERTEX = (4.0, 12.0)
@@ -29,11 +30,14 @@ def embed_learned(surface: Surface, vertices: int, options: EmbeddingOptions, pr
 
     Raises
     ------
+    UsageError
+        If PyTorch is not installed.
     UnreadableInput
         If the weights cannot be read.
     Interrupted
         If `progress` cancels.
     """
+    check_pytorch()
     # torch takes more than a second to load, and no other embedding needs it.
     from hdpea.network.inference import predict_psi
     from hdpea.network.weights import SHIPPED, read_weights

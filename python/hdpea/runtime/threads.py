@@ -5,7 +5,9 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, nullcontext
+
+from hdpea.runtime.pytorch import has_pytorch
 
 # Waiting threads of torch's OpenMP must sleep, not spin: on a busy machine spinning made the particles
 # fifty times slower. Read by OpenMP once, when torch is imported.
@@ -23,16 +25,24 @@ def limited_threads(count: int) -> Iterator[None]:
         # Nothing to tell torch, which a run may not need, and takes seconds to load.
         yield
         return
-    import torch
-
     from hdpea import _core
 
     count = min(count, MOST_THREADS)
+    _core.set_thread_limit(count)
+    try:
+        with _limited_torch(count) if has_pytorch() else nullcontext():
+            yield
+    finally:
+        _core.set_thread_limit(0)
+
+
+@contextmanager
+def _limited_torch(count: int) -> Iterator[None]:
+    import torch
+
     before = torch.get_num_threads()
     torch.set_num_threads(count)
-    _core.set_thread_limit(count)
     try:
         yield
     finally:
-        _core.set_thread_limit(0)
         torch.set_num_threads(before)
