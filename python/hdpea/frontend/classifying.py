@@ -71,7 +71,7 @@ def classify(points: ArrayLike) -> Classified:
 
 
 def _strays_of(points: NDArray[np.float64], nearest: NDArray[np.int64], sampling: Sampling) -> NDArray[np.bool_]:
-    """Return the strays (n,) among points (n, 3): what was not kept for its sampling is what the nearest kept one is."""
+    """Return the strays (n,) among points (n, 3); what was left out on lines is what the nearest kept one is."""
     on_lines = sampling.on_lines > 0
     if sampling.kept.all():
         return find_strays(points, nearest, on_lines)

@@ -76,7 +76,9 @@ NEIGHBORS = max(FAR, AVERAGED)
 
 
 def sampling_of(points: NDArray[np.float64], nearest: NDArray[np.int64]) -> Sampling:
-    """Find how densely points (n, 3), whose `nearest` (n, 32) are known, sample their surface, and which are needed where they crowd on lines.
+    """Find how densely points (n, 3) sample their surface, and which are needed where they crowd on lines.
+
+    Of each the `nearest` (n, 32) are known.
 
     Lines are told by the local dimension (Levina and Bickel, "Maximum likelihood estimation of intrinsic dimension",
     2004). Where many points lie on some, the cloud is looked at in levels, each its farthest points (Eldar et al.,

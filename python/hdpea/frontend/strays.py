@@ -74,7 +74,7 @@ def find_strays(points: NDArray[np.float64], nearest: NDArray[np.int64], on_line
 
 
 def _stand_out(standing: Standing, rows: NDArray[np.int64], on_lines: bool) -> NDArray[np.int64]:
-    """Return which points stand out from those around them: of the `rows`, around which something changed, or sparse."""
+    """Return which points stand out: of the `rows`, around which something changed, and of those that are sparse."""
     nearest = standing.nearest[rows]
     out = np.zeros(len(standing.points), dtype=bool)
     farther = FARTHER_FROM_LINES if on_lines else FARTHER
