@@ -72,10 +72,7 @@ def _normals(facts: CloudFacts) -> str:
         return f"{usable:,} usable"
     if not facts.normals_fit:
         return f"{usable:,}, which do not lie across the surface: they will be estimated instead"
-    from hdpea.surface.orientation import TRUSTED_CONSISTENCY
-
-    trusted = facts.normal_agreement >= TRUSTED_CONSISTENCY
-    fate = "their orientation will be kept" if trusted else "they will be oriented anew"
+    fate = "their orientation will be kept" if facts.normals_oriented else "they will be oriented anew"
     return f"{usable:,} usable, {facts.normal_agreement:.1%} of neighbours agree on the side: {fate}"
 
 

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from hdpea import _core
 from hdpea.errors import core_errors_translated
-from hdpea.frontend.evenness import Sampling, sampling_of
+from hdpea.frontend.evenness import NEIGHBORS, Sampling, sampling_of
 from hdpea.frontend.strays import find_strays
 
 FEWEST_POINTS = 100
@@ -64,18 +64,18 @@ def classify(points: ArrayLike) -> Classified:
     # Differences of large coordinates lose digits, so the origin comes to the cloud first.
     centered = rows - np.median(rows, axis=0)
     with core_errors_translated():
-        # On lines nearly everything lies apart from the rest, until they are thinned.
-        sampling = sampling_of(centered)
-        standing = np.flatnonzero(sampling.kept)
-        strays = np.zeros(len(rows), dtype=bool)
-        strays[standing] = find_strays(np.ascontiguousarray(centered[standing]), sampling.on_lines > 0)
-        if not sampling.kept.all():
-            strays = _as_nearest(centered, sampling, strays)
+        nearest = _core.nearest_neighbors(centered, NEIGHBORS)
+        sampling = sampling_of(centered, nearest)
+        strays = _strays_of(centered, nearest, sampling)
     return Classified(strays, sampling.kept & ~strays, sampling.spacing, sampling.on_lines)
 
 
-def _as_nearest(points: NDArray[np.float64], sampling: Sampling, strays: NDArray[np.bool_]) -> NDArray[np.bool_]:
-    """Return the strays (n,) among all points (n, 3), where what was not kept is what the nearest kept one is."""
-    standing = np.flatnonzero(sampling.kept)
-    nearest = _core.nearest_neighbors(np.ascontiguousarray(points[standing]), points, 1)[:, 0]
-    return strays[standing][nearest]
+def _strays_of(points: NDArray[np.float64], nearest: NDArray[np.int64], sampling: Sampling) -> NDArray[np.bool_]:
+    """Return the strays (n,) among points (n, 3); what was left out on lines is what the nearest kept one is."""
+    on_lines = sampling.on_lines > 0
+    if sampling.kept.all():
+        return find_strays(points, nearest, on_lines)
+    # On lines nearly everything lies apart from the rest, until they are thinned.
+    kept = np.ascontiguousarray(points[sampling.kept])
+    strays = find_strays(kept, _core.nearest_neighbors(kept, NEIGHBORS), on_lines)
+    return strays[_core.nearest_neighbors(kept, points, 1)[:, 0]]

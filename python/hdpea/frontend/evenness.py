@@ -71,8 +71,14 @@ class Sampling:
     on_lines: float
 
 
-def sampling_of(points: NDArray[np.float64]) -> Sampling:
-    """Find how densely points (n, 3), n > 24, sample their surface, and which are needed where they crowd on lines.
+NEIGHBORS = max(FAR, AVERAGED)
+"""Nearest points that are looked at."""
+
+
+def sampling_of(points: NDArray[np.float64], nearest: NDArray[np.int64]) -> Sampling:
+    """Find how densely points (n, 3) sample their surface, and which are needed where they crowd on lines.
+
+    Of each the `nearest` (n, 32) are known.
 
     Lines are told by the local dimension (Levina and Bickel, "Maximum likelihood estimation of intrinsic dimension",
     2004). Where many points lie on some, the cloud is looked at in levels, each its farthest points (Eldar et al.,
@@ -80,7 +86,6 @@ def sampling_of(points: NDArray[np.float64]) -> Sampling:
     whose points have no more surface for themselves than this allows for, they surround each other on all sides. It
     does not matter how dense lines are, nor whether they cross. Neither moving, turning nor scaling makes a difference.
     """
-    nearest = _core.nearest_neighbors(points, max(FAR, AVERAGED))
     even_spacing = _even_spacing(points, nearest)
     on_lines = float((_dimension(points, nearest) < LINE_DIMENSION).mean())
     if on_lines < LEAST_SHARE:

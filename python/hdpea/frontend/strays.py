@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hdpea import _core
+from hdpea.frontend.standing import Standing
 
 REACHES = (12, 24)
 """Numbers of nearest points that a point's distance to the last of is compared; small heaps of strays need the more."""
@@ -45,7 +46,7 @@ ROUNDS = 20
 """Most rounds: each lays open what hid behind the strays of the one before, and most clouds are settled after five."""
 
 
-def find_strays(points: NDArray[np.float64], on_lines: bool = False) -> NDArray[np.bool_]:
+def find_strays(points: NDArray[np.float64], nearest: NDArray[np.int64], on_lines: bool = False) -> NDArray[np.bool_]:
     """Return which points (n, 3) are strays, (n,) bool: not one in ten thousand where there are none.
 
     A point is a stray where its 12th or 24th nearest point is twice as far away as the same is from the points around
@@ -57,68 +58,72 @@ def find_strays(points: NDArray[np.float64], on_lines: bool = False) -> NDArray[
 
     Of points `on_lines`, where the plane of the nearest means nothing, only those count that lie four times as far.
 
-    Clouds of fewer than 25 points are too small for strays.
+    Parameters
+    ----------
+    nearest
+        (n, 24) or more: the nearest other points of each.
     """
-    left = np.arange(len(points))
+    standing = Standing(points, nearest[:, : max(REACHES)])
+    rows = standing.rows
     for _ in range(ROUNDS):
-        if len(left) <= max(REACHES):
+        found = _stand_out(standing, rows, on_lines)
+        if not len(found) or len(standing.rows) - len(found) <= max(REACHES):
             break
-        found = _stand_out(np.ascontiguousarray(points[left]), on_lines)
-        if not found.any():
-            break
-        left = left[~found]
-    strays = np.ones(len(points), dtype=bool)
-    strays[left] = False
-    return strays
+        rows = standing.drop(found)
+    return ~standing.left
 
 
-def _stand_out(points: NDArray[np.float64], on_lines: bool) -> NDArray[np.bool_]:
-    """Return which points (n, 3) stand out from those around them, (n,) bool."""
-    nearest = _core.nearest_neighbors(points, max(REACHES))
-    offsets = points[nearest] - points[:, None]  # (n, k, 3)
-    distances = np.sqrt(np.einsum("nkc,nkc->nk", offsets, offsets))
-    far = np.zeros(len(points), dtype=bool)
+def _stand_out(standing: Standing, rows: NDArray[np.int64], on_lines: bool) -> NDArray[np.int64]:
+    """Return which points stand out: of the `rows`, around which something changed, and of those that are sparse."""
+    nearest = standing.nearest[rows]
+    out = np.zeros(len(standing.points), dtype=bool)
     farther = FARTHER_FROM_LINES if on_lines else FARTHER
     for count in REACHES:
-        far |= distances[:, count - 1] > farther * _around(distances[:, count - 1], nearest[:, :count])
-    reached = distances[:, -1]
-    sparse = np.flatnonzero(~far & (reached > SPARSE * np.median(reached)))
-    if len(sparse) and len(points) > FAR_REACH:
-        far[sparse] = _lie_far_off(points, sparse, farther)
-    if on_lines:
-        return far
-    # A disk that reaches to the k-th neighbour holds k points.
-    spacing = _around(distances[:, PLANE_POINTS - 1], nearest[:, :PLANE_POINTS]) * np.sqrt(np.pi / PLANE_POINTS)
-    return far | _off_the_plane(offsets, spacing)
+        reached = standing.reached(count)
+        out[rows] |= reached[rows] > farther * _around(reached, nearest[:, :count])
+    reached, left = standing.reached(max(REACHES)), standing.rows
+    sparse = left[~out[left] & (reached[left] > SPARSE * np.median(reached[left]))]
+    if len(sparse) and len(left) > FAR_REACH:
+        out[sparse] = _lie_far_off(standing.points, left, sparse, farther)
+    if not on_lines:
+        # A disk that reaches to the k-th neighbour holds k points.
+        wide = _around(standing.reached(PLANE_POINTS), nearest[:, :PLANE_POINTS])
+        out[rows] |= _off_the_plane(standing, rows, wide * np.sqrt(np.pi / PLANE_POINTS))
+    return np.flatnonzero(out)
 
 
-def _lie_far_off(points: NDArray[np.float64], rows: NDArray[np.int64], farther: float) -> NDArray[np.bool_]:
-    """Return which of the `rows` of points (n, 3) stand out over the far reach, (rows,) bool."""
-    nearest = _core.nearest_neighbors(points, np.ascontiguousarray(points[rows]), FAR_REACH + 1)[:, 1:]
+def _lie_far_off(
+    points: NDArray[np.float64], left: NDArray[np.int64], rows: NDArray[np.int64], farther: float
+) -> NDArray[np.bool_]:
+    """Return which of the `rows` of points (n, 3) stand out over the far reach among those `left`, (rows,) bool."""
+    standing = np.ascontiguousarray(points[left])
+    nearest = left[_core.nearest_neighbors(standing, np.ascontiguousarray(points[rows]), FAR_REACH + 1)[:, 1:]]
     asked, at = np.unique(np.concatenate([rows[:, None], nearest], axis=1), return_inverse=True)
     places = np.ascontiguousarray(points[asked])
-    last = _core.nearest_neighbors(points, places, FAR_REACH + 1)[:, -1]
+    last = left[_core.nearest_neighbors(standing, places, FAR_REACH + 1)[:, -1]]
     reached = np.linalg.norm(points[last] - places, axis=1)[at.reshape(len(rows), -1)]
     return np.asarray(reached[:, 0] > farther * np.quantile(reached[:, 1:], SURROUNDINGS, axis=1))
 
 
 def _around(values: NDArray[np.float64], nearest: NDArray[np.int64]) -> NDArray[np.float64]:
-    """Return a low quantile of the values (n,) of each point's `nearest` (n, k)."""
+    """Return a low quantile of the values (n,) of each row's `nearest` (m, k)."""
     return np.asarray(np.quantile(values[nearest], SURROUNDINGS, axis=1))
 
 
-def _off_the_plane(offsets: NDArray[np.float64], spacing: NDArray[np.float64]) -> NDArray[np.bool_]:
-    """Return where the origin lies off the plane of the nearest of the `offsets` (n, k, 3), as few of these do."""
-    nearest = offsets[:, :PLANE_POINTS]
-    middle = nearest.mean(axis=1)
-    around = nearest - middle[:, None]
+def _off_the_plane(standing: Standing, rows: NDArray[np.int64], spacing: NDArray[np.float64]) -> NDArray[np.bool_]:
+    """Return which of the `rows` lie off the plane of the points nearest to them, as few of these do; (rows,) bool."""
+    points = standing.points
+    near = points[standing.nearest[rows, :PLANE_POINTS]] - points[rows, None]
+    middle = near.mean(axis=1)
+    around = near - middle[:, None]
     variances, axes = np.linalg.eigh(around.swapaxes(1, 2) @ around / PLANE_POINTS)
     below = np.einsum("nc,nc->n", middle, axes[:, :, 0])
     height = abs(below)
     deviation = np.maximum(np.sqrt(np.maximum(variances[:, 0], 0)), LEAST_DEVIATION * spacing)
     off: NDArray[np.bool_] = (height > OFF_THE_PLANE * spacing) & (height > OFF_THE_REST * deviation)
-    rows = np.flatnonzero(off)
+    chosen = np.flatnonzero(off)
+    offsets = points[standing.nearest[rows[chosen]]] - points[rows[chosen], None]
     # Those nearer to the parallel plane through the point than to the plane itself.
-    heights = np.einsum("nkc,nc->nk", offsets[rows], axes[rows, :, 0]) / below[rows, None]
-    off[rows[(heights < 0.5).sum(axis=1) >= COMPANY]] = False
+    heights = np.einsum("nkc,nc->nk", offsets, axes[chosen, :, 0]) / below[chosen, None]
+    off[chosen[(heights < 0.5).sum(axis=1) >= COMPANY]] = False
     return off

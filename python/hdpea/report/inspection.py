@@ -14,8 +14,8 @@ from hdpea.geometry.unit_frame import UnitFrame, diagonal_of
 from hdpea.options import MeshingOptions
 from hdpea.reading import PointCloud
 from hdpea.report.cost import PEAK_BYTES, seconds_of_run
+from hdpea.surface.given_signs import GivenSigns, given_signs
 from hdpea.surface.normals import ORIENTATION_NEIGHBORS
-from hdpea.surface.orientation import TRUSTED_CONSISTENCY
 from hdpea.surface.plausibility import are_normals
 from hdpea.surface.surface import median_spacing
 
@@ -28,7 +28,8 @@ class CloudFacts:
     distance to the nearest other point, ``surface_spacing`` how far apart the surface is sampled: more, where points
     lie on scan lines. ``normals_fit`` tells whether the normals lie across the surface, or else will be estimated.
     ``normal_agreement`` is the share of neighbouring points whose normals point to the same side, by which a run
-    decides whether to orient them anew, which takes time. Each is None where there is nothing to compare. The
+    decides whether to orient them anew, which takes time, unless they contradict each other patch by patch
+    (``normals_oriented``). Each is None where there is nothing to compare. The
     estimates are for the default number of vertices.
     """
 
@@ -42,6 +43,7 @@ class CloudFacts:
     surface_spacing: float | None
     normals_fit: bool | None
     normal_agreement: float | None
+    normals_oriented: bool | None
     default_vertices: int
     estimated_seconds: float
     estimated_peak_bytes: float
@@ -55,8 +57,8 @@ def inspect(cloud: PointCloud) -> CloudFacts:
     found = surface_cloud(cloud)
     vertices = MeshingOptions().vertices_of(found.points_shown)
     left = len(found.cloud.points)
-    spacing, fit, agreement = _compare_neighbors(cloud) if 0 < diagonal < np.inf else (None, None, None)
-    oriented = fit is not None and fit and agreement is not None and agreement >= TRUSTED_CONSISTENCY
+    spacing, fit, signs = _compare_neighbors(cloud) if 0 < diagonal < np.inf else (None, None, None)
+    oriented = None if fit is None or signs is None else fit and signs.trusted
     return CloudFacts(
         format=cloud.format,
         counts=cloud.counts() | found.counts(),
@@ -67,16 +69,17 @@ def inspect(cloud: PointCloud) -> CloudFacts:
         spacing=spacing,
         surface_spacing=found.spacing,
         normals_fit=fit,
-        normal_agreement=agreement,
+        normal_agreement=None if signs is None else signs.consistency,
+        normals_oriented=oriented,
         default_vertices=vertices,
-        estimated_seconds=seconds_of_run(left, vertices, oriented),
+        estimated_seconds=seconds_of_run(left, vertices, bool(oriented)),
         estimated_peak_bytes=PEAK_BYTES.of(left, vertices),
         notes=[*cloud.notes, *found.notes],
     )
 
 
-def _compare_neighbors(cloud: PointCloud) -> tuple[float, bool | None, float | None]:
-    """Return the spacing, whether normals lie across the surface, and which share of neighbours agrees on a side."""
+def _compare_neighbors(cloud: PointCloud) -> tuple[float, bool | None, GivenSigns | None]:
+    """Return the spacing, whether normals lie across the surface, and what is thought of their signs."""
     frame = UnitFrame.around(cloud.points)
     points = frame.to_unit(cloud.points)
     with core_errors_translated():
@@ -84,5 +87,5 @@ def _compare_neighbors(cloud: PointCloud) -> tuple[float, bool | None, float | N
         spacing = frame.diagonal * median_spacing(points, neighbors)
         if cloud.normals is None:
             return spacing, None, None
-        agreement = _core.orientation_consistency(points, cloud.normals, neighbors)
-        return spacing, are_normals(points, cloud.normals), agreement
+        signs = given_signs(points, cloud.normals, neighbors)
+        return spacing, are_normals(points, cloud.normals), signs

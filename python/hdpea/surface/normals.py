@@ -14,6 +14,7 @@ from hdpea.geometry.unit_frame import UnitFrame
 from hdpea.options import NormalOptions
 from hdpea.options.choice import Choice
 from hdpea.runtime.progress import ProgressCallback, of_phase, tell
+from hdpea.surface.given_signs import GivenSigns, given_signs
 from hdpea.surface.orientation import SignEvidence, Vectors, orient, require_signs
 from hdpea.surface.plausibility import are_normals
 from hdpea.surface.roughness import Roughness, roughness_of
@@ -38,8 +39,8 @@ class OrientedSurface:
         Of the points as given.
     estimated
         How many normals were estimated.
-    consistency
-        Share of neighbours whose given normals agreed in orientation; None without given normals.
+    signs
+        What is thought of the signs of the given normals; None without any.
     method
         What gave the normals their signs, one of ``NormalOptions.orient`` but auto.
     refused
@@ -53,7 +54,7 @@ class OrientedSurface:
     surface: Surface
     roughness: Roughness
     estimated: int
-    consistency: float | None
+    signs: GivenSigns | None
     method: str
     refused: bool = False
     choices: tuple[Choice, ...] = ()
@@ -124,21 +125,20 @@ def oriented_surface(
         directions, choices = _directions(points, given, usable, neighbors, roughness, options, points_per_vertex)
         # Where all normals are to be estimated, the signs of given ones count only if they are asked for.
         trusted = given if options.orient == "file" else np.where(usable[:, None], given, 0)
-        evidence = SignEvidence(
-            trusted, ~usable, nearest, roughness, frame.to_unit(np.zeros(3)), _sensors(frame, sensors_in_world)
-        )
+        signs = given_signs(points, trusted, nearest)
+        origin, sensors = frame.to_unit(np.zeros(3)), _sensors(frame, sensors_in_world)
+        evidence = SignEvidence(trusted, ~usable, nearest, roughness, origin, sensors, signs)
         seen_from = _seen_from(frame, sensors_in_world, options) if options.orient == "viewpoint" else None
         orientation = orient(points, directions, evidence, options.orient, seen_from, of_phase(progress, "normals"))
         if options.orient == "auto":
             choices += (Choice("orient", orientation.method, "", orientation.why),)
-        consistency = evidence.consistency(points)
     tell(progress, "normals", 1)
     surface = Surface.of(frame, points, orientation.normals, neighbors)
     return OrientedSurface(
         surface,
         roughness,
         estimated=int((~usable).sum()),
-        consistency=consistency,
+        signs=signs,
         method=orientation.method,
         refused=refused,
         choices=choices,

@@ -13,13 +13,11 @@ from hdpea.errors import UnreadableInput, UsageError
 from hdpea.geometry.thinning import farthest_rows
 from hdpea.options import NormalOptions
 from hdpea.runtime.progress import PhaseCallback
+from hdpea.surface.given_signs import GivenSigns
 from hdpea.surface.roughness import Roughness
 from hdpea.surface.single_view import GRAZING, View, single_view
 
 Vectors = NDArray[np.float64]
-
-TRUSTED_CONSISTENCY = 0.9
-"""Share of neighbours in agreement from which the file's orientation is kept; random signs give 0.5."""
 
 AGREEING_COSINE = 0.5
 """Least |cosine| with the winding number's normal at which a direction counts as the same normal: 60 degrees."""
@@ -60,6 +58,8 @@ class SignEvidence:
         (3,) float64: that of the file, where a camera may have been.
     sensors
         (n, 3) float64, what saw each point; None if the file does not say.
+    signs
+        What is thought of the signs of the given normals; None without any.
     """
 
     given: Vectors
@@ -68,12 +68,7 @@ class SignEvidence:
     roughness: Roughness
     origin: Vectors
     sensors: Vectors | None = None
-
-    def consistency(self, points: Vectors) -> float | None:
-        """Return the share of neighbouring `points` (n, 3) whose given normals agree on the side; None without any."""
-        if not self.given.any():
-            return None
-        return _core.orientation_consistency(points, self.given, self.neighbors)
+    signs: GivenSigns | None = None
 
 
 @dataclass(frozen=True)
@@ -151,11 +146,10 @@ def orient(
 def _by_best_method(
     points: Vectors, directions: Vectors, evidence: SignEvidence, progress: PhaseCallback | None
 ) -> Orientation:
-    given = evidence.consistency(points)
-    if given is not None and given >= TRUSTED_CONSISTENCY:
-        return Orientation(
-            by_file(points, directions, evidence), "file", f"{given:.0%} of neighbours agree on the side"
-        )
+    signs = evidence.signs
+    if signs is not None and signs.trusted:
+        why = f"{signs.consistency:.0%} of neighbours agree on the side"
+        return Orientation(by_file(points, directions, evidence), "file", why)
     view = _view(points, directions, evidence)
     if view is not None:
         normals = by_view(points, directions, evidence, view)

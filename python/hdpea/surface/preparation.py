@@ -12,7 +12,6 @@ from hdpea.runtime.clock import StageClock
 from hdpea.runtime.progress import ProgressCallback
 from hdpea.surface.denoising import denoised
 from hdpea.surface.normals import OrientedSurface, oriented_surface
-from hdpea.surface.orientation import TRUSTED_CONSISTENCY
 from hdpea.surface.surface import Surface
 
 
@@ -85,8 +84,9 @@ def _notes(cloud: PointCloud, oriented: OrientedSurface) -> list[str]:
         notes.append("The given normals do not lie across the surface of the points: they were estimated instead.")
     elif oriented.estimated > cloud.unusable_normals:
         notes.append(f"Normals of {oriented.estimated:,} points were estimated.")
-    if oriented.method != "file" and oriented.consistency is not None and oriented.consistency < TRUSTED_CONSISTENCY:
-        share = f"{oriented.consistency:.0%} of neighbours agreed"
+    signs = oriented.signs
+    if oriented.method != "file" and signs is not None and not signs.trusted:
+        share = f"{signs.consistency:.0%} of neighbours agreed{', patch by patch' if signs.patchy else ''}"
         notes.append(f"The given normals point both ways ({share}); they were oriented anew.")
     if oriented.from_one_place:
         notes.append("The points were seen from one place: what cannot be seen from there is missing.")

@@ -31,7 +31,7 @@ def test_estimated_normals_are_right_and_point_outwards(shape: str) -> None:
     found = oriented_surface(points)
     agreement = cosines(found.surface.normals, truth)
     assert found.estimated == 4000
-    assert found.consistency is None
+    assert found.signs is None
     assert np.median(agreement) > 0.99
     # Normals near a sharp edge may belong to either side; on a smooth surface all are right.
     assert (agreement > 0.7).mean() > (0.9 if shape in {"cube", "plate"} else 0.999)
@@ -42,7 +42,19 @@ def test_normals_that_point_both_ways_are_oriented_as_the_truth(shape: str) -> N
     points, truth = clouds.CLOSED[shape](3000)
     found = oriented_surface(points, flipped_half(truth))
     assert found.method != "file"
-    assert found.consistency == pytest.approx(0.5, abs=0.1)
+    assert found.signs is not None
+    assert found.signs.consistency == pytest.approx(0.5, abs=0.1)
+    np.testing.assert_array_equal(found.surface.normals, truth)
+
+
+@pytest.mark.parametrize("shape", ["sphere", "cube"])
+def test_normals_that_all_face_along_a_positive_axis_are_oriented_as_the_truth(shape: str) -> None:
+    points, truth = clouds.CLOSED[shape](10_000)
+    largest = np.take_along_axis(truth, abs(truth).argmax(axis=1)[:, None], axis=1)
+    found = oriented_surface(points, truth * np.sign(largest))
+    assert found.signs is not None
+    assert found.signs.consistency > 0.9
+    assert found.method != "file"
     np.testing.assert_array_equal(found.surface.normals, truth)
 
 

@@ -1,0 +1,78 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Whether the signs of given normals are to be believed, or point both ways: at random, or patch by patch."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hdpea import _core
+
+Vectors = NDArray[np.float64]
+
+TRUSTED_CONSISTENCY = 0.9
+"""Share of neighbours in agreement under which signs are not believed; random signs give 0.5."""
+
+SEAMLESS = 0.999
+"""Share of neighbours in agreement from which on no seams between patches are looked for."""
+
+FEWER_CONTRADICTIONS, LEAST_TURNED = 4.0, 0.05
+"""How many times fewer neighbours must disagree along a spanning tree, and which share of the points that must turn,
+for signs to be wrong patch by patch."""
+
+
+@dataclass(frozen=True)
+class GivenSigns:
+    """What is thought of the signs of given normals.
+
+    Attributes
+    ----------
+    consistency
+        Share of neighbours that agree on the side.
+    patchy
+        Whether those that do not lie along seams between patches that face opposite ways, which another choice of
+        sides does without.
+    """
+
+    consistency: float
+    patchy: bool
+
+    @property
+    def trusted(self) -> bool:
+        """Whether they say which side is out."""
+        return self.consistency >= TRUSTED_CONSISTENCY and not self.patchy
+
+
+def given_signs(points: Vectors, given: Vectors, neighbors: NDArray[np.int64]) -> GivenSigns | None:
+    """Judge the signs of normals; None if there are none.
+
+    Normals that were fitted and never oriented, such as those of principal components, which all have a positive z or
+    face along a positive axis, agree nearly everywhere: neighbours contradict each other along seams only. They
+    are told by a spanning tree, which knows no signs: where it turns whole patches over and has next to no seams, there
+    need be none. Of things that touch, and of thin walls, the tree has seams as well.
+
+    Parameters
+    ----------
+    points
+        (n, 3), distinct.
+    given
+        (n, 3) of length 1, or 0 where there is none.
+    neighbors
+        (n, k): nearest other points, -1 pads.
+    """
+    usable = given.any(axis=1)
+    if not usable.any():
+        return None
+    consistency = _core.orientation_consistency(points, given, neighbors)
+    if not TRUSTED_CONSISTENCY <= consistency < SEAMLESS:
+        return GivenSigns(consistency, patchy=False)
+    if not usable.all():
+        points, given = np.ascontiguousarray(points[usable]), np.ascontiguousarray(given[usable])
+        neighbors = _core.nearest_neighbors(points, neighbors.shape[1])
+    along_tree = _core.orient_normals(points, given, neighbors)
+    turned = float((np.einsum("nc,nc->n", along_tree, given) < 0).mean())
+    seams = 1 - _core.orientation_consistency(points, along_tree, neighbors)
+    fewer = FEWER_CONTRADICTIONS * seams < 1 - consistency
+    return GivenSigns(consistency, patchy=fewer and LEAST_TURNED < turned < 1 - LEAST_TURNED)
