@@ -63,7 +63,11 @@ def command(
     """
     options = chosen_options(ctx, values)
     _check_outputs(output, report, dropped, picture)
-    check_distinct([source, options.embedding.weights, config_of(ctx)], [output, report, dropped, picture])
+    from hdpea.writing.placement import placement_file
+
+    check_distinct(
+        [source, options.embedding.weights, config_of(ctx)], [output, placement_file(output), report, dropped, picture]
+    )
     from hdpea.reading import read_points
     from hdpea.runtime.clock import StageClock
     from hdpea.runtime.progress import shown, tell
@@ -85,7 +89,7 @@ def command(
         result.report.begin_with(source, clock)
         tell(progress, "writing", 0.0)
         with result.report.clock.stage("writing"):
-            write_mesh(output, result.vertices, result.faces)
+            write_mesh(output, result.vertices, result.faces, result.attributes, result.crs)
         if report:
             result.report.write(report)
         if dropped:
