@@ -3,7 +3,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -13,18 +16,23 @@ from hdpea.embedding.tangents import tangent_bases
 from hdpea.errors import core_errors_translated
 from hdpea.frontend.cleaning import DroppedPoints, surface_cloud
 from hdpea.mesh.assembly import assemble_mesh
+from hdpea.mesh.attributes import vertex_attributes
 from hdpea.mesh.budget import particles_wanted
+from hdpea.mesh.extraction import Mesh
 from hdpea.mesh.sides import FacedMesh, facing_out
-from hdpea.options import Length, Options
+from hdpea.options import Classes, Length, Options
 from hdpea.options.settings import changed
 from hdpea.reading.cloud import PointCloud, cleaned_cloud
 from hdpea.report.agreement import agreement_of
 from hdpea.report.measurement import distances_to, mesh_facts, missed_targets
 from hdpea.report.report import Journal, Report
+from hdpea.runtime.clock import StageClock
 from hdpea.runtime.progress import ProgressCallback, tell
 from hdpea.runtime.pytorch import check_pytorch
 from hdpea.runtime.threads import limited_threads
 from hdpea.surface.preparation import prepare_surface
+from hdpea.surface.surface import Surface
+from hdpea.writing.meshes import write_mesh
 
 PHASES = (
     "cleaning",
@@ -56,12 +64,23 @@ class Reconstruction:
         What was asked, chosen, found and measured.
     dropped
         The points that were left out because they show no surface, or crowd on scan lines.
+    attributes
+        Arrays (v,) or (v, c) by name: the attributes of the points at the vertices (``hdpea.mesh.attributes``); colours
+        are red, green and blue, sRGB of 8 bits.
+    crs
+        The coordinate reference system of the vertices, if the cloud's is known.
     """
 
     vertices: NDArray[np.float64]
     faces: NDArray[np.int64]
     report: Report
     dropped: DroppedPoints = field(default_factory=DroppedPoints)
+    attributes: Mapping[str, NDArray[Any]] = field(default_factory=dict)
+    crs: str | None = None
+
+    def write(self, path: str | Path) -> None:
+        """Write the mesh with its attributes and where it lies, as ``hdpea.write_mesh`` does."""
+        write_mesh(path, self.vertices, self.faces, self.attributes, self.crs)
 
 
 def reconstruct(
@@ -81,6 +100,8 @@ def reconstruct(
     embedding: str | None = None,
     seed: int | None = None,
     threads: int | None = None,
+    classes: Iterable[int] | str | None = None,
+    attributes: Mapping[str, ArrayLike] | None = None,
 ) -> Reconstruction:
     """Make a compact anisotropic triangle mesh of a point cloud.
 
@@ -115,8 +136,14 @@ def reconstruct(
         Of everything random; the same seed gives the same bytes. Default: 0.
     threads
         To use; 0 (default): all cores. The result is the same for any number.
+    classes
+        Take only the points of these classes: ``[2, 6]`` or ``"2,6"``. Default: all points.
+    attributes
+        (n,) or (n, c) by name, of points given as an array: what the vertices are to have, too. Colours are red, green
+        and blue, or `colors` (n, 3).
 
-    The last nine are the common ones among the options, and overrule `options`, where all others are.
+    Those from `vertices` to `classes` are the common ones among the options, and overrule `options`, where all others
+    are.
 
     Raises
     ------
@@ -149,6 +176,7 @@ def reconstruct(
         "embedding": embedding,
         "seed": seed,
         "threads": threads,
+        "classes": None if classes is None else Classes.of(classes),
     }
     given = {name: value for name, value in common.items() if value is not None}
     options = changed(options or Options(), given)
@@ -156,7 +184,7 @@ def reconstruct(
     journal = Journal(options=options)
     clock = journal.clock
     with limited_threads(options.threads), core_errors_translated():
-        cloud = cleaned_cloud(points, normals, sensors)
+        cloud = cleaned_cloud(points, normals, sensors, attributes)
         with clock.stage("cleaning"):
             tell(progress, "cleaning", 0)
             found = surface_cloud(cloud, options.cleaning)
@@ -170,6 +198,8 @@ def reconstruct(
             embedded = embed_surface(surface, particles, options.embedding, progress, embedder)
             bases = tangent_bases(embedded.coordinates, surface.normals, surface.neighbors, per_particle)
         mesh = assemble_mesh(surface, embedded.coordinates, bases, options, progress, clock, found.points_shown)
+        # Before any piece is turned, as its points are not.
+        carried = _carried(mesh, surface, cloud, clock)
         faced = facing_out(mesh) if prepared.oriented.computed_sides else FacedMesh(mesh)
         mesh = faced.mesh
         with clock.stage("measuring"):
@@ -179,6 +209,8 @@ def reconstruct(
             agreement = agreement_of(mesh, surface, options.vertices_of(found.points_shown))
             tell(progress, "measuring", 1)
     journal.source["format"] = cloud.format
+    if cloud.crs is not None:
+        journal.source["crs"] = cloud.crs
     journal.counts |= cloud.counts() | found.counts() | {"normals_estimated": prepared.oriented.estimated}
     journal.choices += [*prepared.choices, *count_choices, *embedded.choices, *mesh.choices]
     journal.meshing |= mesh.statistics
@@ -186,4 +218,12 @@ def reconstruct(
     journal.missed += [*missed_targets(mesh, facts, options.meshing), *agreement.missed()]
     vertices_in_world = surface.frame.to_world(mesh.vertices_in_unit)
     report = Report.of(journal, facts, distances, agreement)
-    return Reconstruction(vertices_in_world, mesh.faces, report, found.dropped)
+    return Reconstruction(vertices_in_world, mesh.faces, report, found.dropped, carried, cloud.crs)
+
+
+def _carried(mesh: Mesh, surface: Surface, cloud: PointCloud, clock: StageClock) -> dict[str, NDArray[Any]]:
+    """Return the attributes of a cloud at the vertices of its mesh; a stage only where there are any."""
+    if not cloud.attributes:
+        return {}
+    with clock.stage("attributes"):
+        return vertex_attributes(mesh, surface, cloud.attributes)

@@ -32,7 +32,11 @@ class Job:
 
     def outputs(self) -> list[tuple[Path, str]]:
         """Return the files that are to be written, and the kind of each."""
-        kinds = {"mesh": self.destination.output, "report": self.report, "picture": self.picture}
+        from hdpea.writing.placement import placement_file
+
+        mesh = self.destination.output
+        kinds = {"mesh": mesh, "report": self.report, "picture": self.picture}
+        kinds["placement"] = mesh and placement_file(mesh)
         kinds["set of dropped points"] = self.dropped
         return [(path, kind) for kind, path in kinds.items() if path is not None]
 
@@ -129,9 +133,10 @@ def _write_mesh(destination: Destination, result: Reconstruction) -> None:
     from hdpea.writing.meshes import mesh_content, write_mesh
 
     if destination.output is not None:
-        write_mesh(destination.output, result.vertices, result.faces)
+        write_mesh(destination.output, result.vertices, result.faces, result.attributes, result.crs)
         return
-    sys.stdout.buffer.write(mesh_content(destination.extension, result.vertices, result.faces))
+    content, _ = mesh_content(destination.extension, result.vertices, result.faces, result.attributes, result.crs)
+    sys.stdout.buffer.write(content)
     sys.stdout.buffer.flush()
 
 

@@ -13,6 +13,7 @@ from click.core import ParameterSource
 
 from hdpea.errors import HdpeaError
 from hdpea.options import Options
+from hdpea.options.classes import Classes
 from hdpea.options.lengths import Length
 from hdpea.options.position import Position
 from hdpea.options.settings import Setting, options_from, settings
@@ -21,13 +22,15 @@ Decorated = TypeVar("Decorated", bound=Callable[..., Any])
 
 
 class ParsedType(click.ParamType[Any]):
-    """What is given as text that its class can ``parse``: a length such as ``1%``, a position such as ``1,2,3``."""
+    """Text that its class can ``parse``: a length such as ``1%``, a position such as ``1,2,3``, classes as ``2,6``."""
 
-    def __init__(self, kind: type[Length] | type[Position]) -> None:
+    def __init__(self, kind: type[Length] | type[Position] | type[Classes]) -> None:
         self.kind = kind
         self.name = kind.__name__.lower()
 
-    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Length | Position:
+    def convert(
+        self, value: Any, param: click.Parameter | None, ctx: click.Context | None
+    ) -> Length | Position | Classes:
         """Return the value; a usage error if it is none."""
         try:
             return value if isinstance(value, self.kind) else self.kind.parse(value)
@@ -170,7 +173,12 @@ def _flag_of(setting: Setting) -> str:
 
 def _flag(setting: Setting, flags: Mapping[str, str], group: str) -> Callable[[Decorated], Decorated]:
     flag = flags[setting.name]
-    kinds: dict[type, Any] = {Length: ParsedType(Length), Position: ParsedType(Position), float: ShareType()}
+    kinds: dict[type, Any] = {
+        Length: ParsedType(Length),
+        Position: ParsedType(Position),
+        Classes: ParsedType(Classes),
+        float: ShareType(),
+    }
     return click.option(
         f"{flag}/--no-{flag[2:]}" if setting.kind is bool else flag,
         cls=GroupedOption,

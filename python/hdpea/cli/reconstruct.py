@@ -129,7 +129,7 @@ def _check_outputs(wanted: Sequence[Job], read: Sequence[Path | str | None], for
     from hdpea.pictures.picture import PICTURE_FORMATS, check_drawing
     from hdpea.writing.meshes import MESH_FORMATS, POINT_FORMATS
 
-    formats = {"mesh": MESH_FORMATS, "report": [".json"], "picture": PICTURE_FORMATS}
+    formats = {"mesh": MESH_FORMATS, "report": [".json"], "placement": [".json"], "picture": PICTURE_FORMATS}
     kinds: dict[Path, str] = {}
     for job in wanted:
         for path, kind in job.outputs():

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hdpea.errors import core_errors_translated
+from hdpea.frontend.classes import of_classes
 from hdpea.frontend.classifying import Classified, classify
 from hdpea.frontend.crowds import crowd_means
 from hdpea.frontend.precision import precision_note
@@ -72,8 +73,16 @@ class SurfaceCloud:
 
 
 def surface_cloud(cloud: PointCloud, options: CleaningOptions | None = None) -> SurfaceCloud:
-    """Leave out of a cleaned cloud what lies on no surface, and merge what crowds on scan lines."""
+    """Leave out of a cleaned cloud what lies on no surface, and merge what crowds on scan lines.
+
+    Raises
+    ------
+    UsageError
+        If classes are asked for that there are not.
+    """
     options = options or CleaningOptions()
+    if options.classes is not None:
+        cloud = of_classes(cloud, options.classes)
     with core_errors_translated():
         rounded = precision_note(cloud.points)
     notes = () if rounded is None else (rounded,)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Areas of triangles."""
+"""Areas and normals of triangles."""
 
 from __future__ import annotations
 
@@ -21,3 +21,28 @@ def area_vectors_of(corners: NDArray[np.float64]) -> NDArray[np.float64]:
 def mesh_area(vertices: NDArray[np.float64], faces: NDArray[np.int64]) -> float:
     """Return the area of a mesh."""
     return float(np.linalg.norm(area_vectors(vertices, faces), axis=1).sum())
+
+
+def vertex_normals(vertices: NDArray[np.float64], faces: NDArray[np.int64]) -> NDArray[np.float64]:
+    """Return unit normals (v, 3) at the vertices; z where there are no faces, or they cancel out.
+
+    Faces count by their angle at the vertex (Thürmer and Wüthrich 1998), so that it does not matter how a flat
+    neighbourhood is cut into triangles.
+    """
+    corners = vertices[faces]
+    with np.errstate(invalid="ignore", divide="ignore"):
+        normals = _unit(area_vectors_of(corners))
+        sums = np.zeros_like(vertices)
+        for i in range(3):
+            to_next, to_previous = (
+                _unit(corners[:, (i + 1) % 3] - corners[:, i]),
+                _unit(corners[:, i - 1] - corners[:, i]),
+            )
+            angles = np.arccos(np.einsum("fc,fc->f", to_next, to_previous).clip(-1, 1))
+            np.add.at(sums, faces[:, i], np.nan_to_num(angles[:, None] * normals))
+        normals = _unit(sums)
+    return np.where(np.isfinite(normals).all(axis=1, keepdims=True), normals, [0.0, 0.0, 1.0])
+
+
+def _unit(vectors: NDArray[np.float64]) -> NDArray[np.float64]:
+    return np.asarray(vectors / np.linalg.norm(vectors, axis=1, keepdims=True))

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from hdpea.options.checked import Checked as Checked
 from hdpea.options.checked import option as option
+from hdpea.options.classes import Classes as Classes
 from hdpea.options.cleaning import CleaningOptions as CleaningOptions
 from hdpea.options.denoising import DenoisingOptions as DenoisingOptions
 from hdpea.options.embedding import EmbeddingOptions as EmbeddingOptions

@@ -6,6 +6,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from hdpea.options.checked import Checked, option
+from hdpea.options.classes import Classes
 
 
 @dataclass(frozen=True)
@@ -17,3 +18,4 @@ class CleaningOptions(Checked):
         "auto: drop points that lie on no surface, and those that crowd on scan lines; none: keep all points",
         choices=("auto", "none"),
     )
+    classes: Classes | None = option(None, "take only the points of these classes, as 2,6; default: all points")

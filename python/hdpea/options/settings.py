@@ -9,6 +9,7 @@ from types import NoneType
 from typing import Any, TypeVar, get_args, get_type_hints
 
 from hdpea.options.checked import Checked
+from hdpea.options.classes import Classes
 from hdpea.options.lengths import Length
 from hdpea.options.position import Position
 from hdpea.options.reconstruction import Options
@@ -23,7 +24,7 @@ RUN = "run"
 class Setting:
     """One field of one options dataclass.
 
-    ``kind`` is the type of its value (int, float, bool, str, Length or Position); ``stage`` the field of
+    ``kind`` is the type of its value (int, float, bool, str, Length, Position or Classes); ``stage`` the field of
     the options it lies in, or ``RUN``.
     """
 
@@ -100,5 +101,7 @@ def as_dict(options: object) -> dict[str, dict[str, Any]]:
     for each in _all(type(options)):
         owner = options if each.stage == RUN else getattr(options, each.stage)
         value = getattr(owner, each.name)
-        listed.setdefault(each.stage, {})[each.name] = str(value) if isinstance(value, Length | Position) else value
+        listed.setdefault(each.stage, {})[each.name] = (
+            str(value) if isinstance(value, Length | Position | Classes) else value
+        )
     return listed

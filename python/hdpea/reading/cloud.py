@@ -41,6 +41,8 @@ class PointCloud:
         How many of the kept points came with a normal that is zero or not finite.
     clean
         Whether it went through ``cleaned``.
+    crs
+        The coordinate reference system of the points, as WKT or such as EPSG:25832, if the file says one.
     """
 
     points: NDArray[np.float64]
@@ -52,6 +54,7 @@ class PointCloud:
     dropped_duplicates: int = 0
     unusable_normals: int = 0
     clean: bool = False
+    crs: str | None = None
 
     def sensors(self) -> NDArray[np.float64] | None:
         """Return from where each point was seen, (n, 3), if the file says so: in sensor_x, y and z, or in sensor."""
@@ -111,8 +114,15 @@ def from_columns(columns: Mapping[str, NDArray[Any]], format: str, notes: Iterab
     return PointCloud(points, normals, attributes, format, tuple(notes))
 
 
-def from_arrays(points: ArrayLike, normals: ArrayLike | None = None, sensors: ArrayLike | None = None) -> PointCloud:
+def from_arrays(
+    points: ArrayLike,
+    normals: ArrayLike | None = None,
+    sensors: ArrayLike | None = None,
+    attributes: Mapping[str, ArrayLike] | None = None,
+) -> PointCloud:
     """Take a caller's arrays, points, normals and sensor positions, each (n, 3), of any number type.
+
+    Attributes are any other arrays (n, ...) by name.
 
     Raises
     ------
@@ -125,11 +135,19 @@ def from_arrays(points: ArrayLike, normals: ArrayLike | None = None, sensors: Ar
     for array, name in ((given, "normals"), (seen_from, "sensors")):
         if array is not None and len(array) != len(found):
             raise UsageError(f"There are {len(found)} points but {len(array)} {name}.", "Each point needs its own.")
-    return PointCloud(found, given, {} if seen_from is None else {"sensor": seen_from})
+    others = {name: np.asarray(values) for name, values in (attributes or {}).items()}
+    for name, values in others.items():
+        if values.shape[:1] != (len(found),):
+            hint = "Each point needs its own."
+            raise UsageError(f"There are {len(found)} points, but `attributes` has {name!r} of {values.shape}.", hint)
+    return PointCloud(found, given, others if seen_from is None else {**others, "sensor": seen_from})
 
 
 def cleaned_cloud(
-    points: ArrayLike | PointCloud, normals: ArrayLike | None = None, sensors: ArrayLike | None = None
+    points: ArrayLike | PointCloud,
+    normals: ArrayLike | None = None,
+    sensors: ArrayLike | None = None,
+    attributes: Mapping[str, ArrayLike] | None = None,
 ) -> PointCloud:
     """Return the cleaned cloud of a caller's arrays, as ``from_arrays`` takes them, or of a cloud.
 
@@ -141,9 +159,9 @@ def cleaned_cloud(
         If no point is left.
     """
     if not isinstance(points, PointCloud):
-        return cleaned(from_arrays(points, normals, sensors))
-    if normals is not None or sensors is not None:
-        raise UsageError("A cloud brings its own normals and sensors.", "Give the cloud alone, or arrays.")
+        return cleaned(from_arrays(points, normals, sensors, attributes))
+    if normals is not None or sensors is not None or attributes is not None:
+        raise UsageError("A cloud brings its own normals, sensors and attributes.", "Give the cloud alone, or arrays.")
     return points if points.clean else cleaned(points)
 
 

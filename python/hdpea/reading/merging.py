@@ -16,7 +16,7 @@ def merged(clouds: Sequence[PointCloud]) -> PointCloud:
     """Return the points of all clouds, which have one frame and unit, in their order.
 
     Points of a cloud without normals get zeros, which are none. Attributes, and sensors, are kept where every cloud
-    has them; the notes say which are not.
+    has them, the coordinate reference system where all have the same; the notes say which attributes are not.
     """
     normals = None
     if any(cloud.normals is not None for cloud in clouds):
@@ -33,6 +33,7 @@ def merged(clouds: Sequence[PointCloud]) -> PointCloud:
         {name: np.concatenate([each[name] for each in attributes]) for name in common},
         ", ".join(dict.fromkeys(cloud.format for cloud in clouds)),
         tuple(dict.fromkeys(notes)),
+        crs=clouds[0].crs if len({cloud.crs for cloud in clouds}) == 1 else None,
     )
 
 

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from hdpea.errors import UnreadableInput
 from hdpea.reading import DAMAGE, read_bytes
+from hdpea.reading.glb import placed_in_world
 
 TriangleMesh = tuple[NDArray[np.float64], NDArray[np.int64]]
 """Vertices (v, 3) and faces (f, 3)."""
@@ -76,4 +77,5 @@ def _parse(data: bytes, suffix: str) -> TriangleMesh:
 
     options = {"skip_materials": True} if suffix == ".obj" else {}
     mesh = trimesh.load_mesh(io.BytesIO(data), file_type=suffix[1:], process=False, **options)
-    return np.asarray(mesh.vertices, np.float64), np.asarray(mesh.faces, np.int64)
+    vertices, faces = np.asarray(mesh.vertices, np.float64), np.asarray(mesh.faces, np.int64)
+    return (placed_in_world(data, vertices) if suffix == ".glb" else vertices), faces

@@ -3,9 +3,9 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Mapping
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.lib.recfunctions import repack_fields
@@ -13,26 +13,32 @@ from numpy.typing import ArrayLike, NDArray
 from plyfile import PlyData, PlyElement
 
 from hdpea.errors import UsageError
-from hdpea.geometry.unit_frame import diagonal_of
 from hdpea.runtime.outputs import check_output, replacing
+from hdpea.writing.attributes import colors_of, columns_of
+from hdpea.writing.glb import glb
 from hdpea.writing.marking import marked, save_arrays
+from hdpea.writing.placement import Placement, loses_digits, placement_file, write_placement
 
 Points = NDArray[np.float64]
 Faces = NDArray[np.int64]
 
-FLOAT32_LOSS = 1e-6
-"""Largest share of the diagonal that a vertex may move by being stored in single precision."""
-
-FLOAT32_LEAST, FLOAT32_MOST = 1e-30, 1e30
-"""Sizes of meshes between which single precision has all its digits for their details, too."""
+Columns = Mapping[str, NDArray[Any]]
+"""Attributes (v,) by name."""
 
 
-def write_mesh(path: str | Path, vertices: ArrayLike, faces: ArrayLike) -> None:
+def write_mesh(
+    path: str | Path,
+    vertices: ArrayLike,
+    faces: ArrayLike,
+    attributes: Mapping[str, ArrayLike] | None = None,
+    crs: str | None = None,
+) -> None:
     """Write a triangle mesh as OBJ, PLY, OFF, STL or GLB, by the extension of `path`.
 
     OBJ, PLY and OFF hold the vertices exactly. STL is binary, or text where single precision would
-    move the vertices of a georeferenced mesh. GLB is shifted to its centre, and scaled if single precision could not
-    hold its size; its node holds the shift and the scale.
+    move the vertices of a georeferenced mesh. GLB has y up, counts in metres, and is scaled if single precision could
+    not hold its size; a georeferenced mesh is shifted there. Shift and `crs` are written beside the mesh, as
+    ``mesh.world.json``, if there are any, and into the extras of the GLB's node.
 
     Parameters
     ----------
@@ -42,6 +48,11 @@ def write_mesh(path: str | Path, vertices: ArrayLike, faces: ArrayLike) -> None:
         (v, 3), finite.
     faces
         (f, 3) indices of vertices.
+    attributes
+        (v,) or (v, c) by name. PLY holds all of them, OBJ and GLB the colours (red, green and blue of 8 bits), OFF and
+        STL none.
+    crs
+        The coordinate reference system of the vertices, as WKT or such as ``EPSG:25832``.
 
     Raises
     ------
@@ -50,20 +61,32 @@ def write_mesh(path: str | Path, vertices: ArrayLike, faces: ArrayLike) -> None:
     """
     path = Path(path)
     check_output(path, MESH_FORMATS)
-    content = mesh_content(path.suffix.lower(), vertices, faces)
+    extension = path.suffix.lower()
+    content, placement = mesh_content(extension, vertices, faces, attributes, crs)
     with replacing(path) as partial:
         partial.write_bytes(content)
+    if placement.is_worth_a_file():
+        write_placement(placement_file(path), placement)
 
 
-def mesh_content(extension: str, vertices: ArrayLike, faces: ArrayLike) -> bytes:
-    """Return what ``write_mesh`` writes, for an extension of ``MESH_FORMATS``.
+def mesh_content(
+    extension: str,
+    vertices: ArrayLike,
+    faces: ArrayLike,
+    attributes: Mapping[str, ArrayLike] | None = None,
+    crs: str | None = None,
+) -> tuple[bytes, Placement]:
+    """Return what ``write_mesh`` writes, for an extension of ``MESH_FORMATS``, and where it stands in the world.
 
     Raises
     ------
     UsageError
         If the arrays are no mesh.
     """
-    return marked(MESH_FORMATS[extension](*_checked(vertices, faces)), extension)
+    checked_vertices, checked_faces = _checked(vertices, faces)
+    columns = columns_of(attributes or {}, len(checked_vertices))
+    placement = Placement.of(checked_vertices, extension, crs)
+    return marked(MESH_FORMATS[extension](checked_vertices, checked_faces, columns, placement), extension), placement
 
 
 def _checked(vertices: ArrayLike, faces: ArrayLike) -> tuple[Points, Faces]:
@@ -112,11 +135,13 @@ def point_ply(points: Points, normals: Points, others: Mapping[str, NDArray[np.f
     return marked(_ply(_records(table, ["x", "y", "z", "nx", "ny", "nz", *others])), ".ply", kind)
 
 
-def _obj(vertices: Points, faces: Faces) -> bytes:
-    return _lines(vertices, "v ") + _lines(faces + 1, "f ")
+def _obj(vertices: Points, faces: Faces, columns: Columns, _: Placement) -> bytes:
+    colors = colors_of(columns)
+    rows = vertices if colors is None else np.hstack([vertices, np.round(colors / 255.0, 4)])
+    return _lines(rows, "v ") + _lines(faces + 1, "f ")
 
 
-def _off(vertices: Points, faces: Faces) -> bytes:
+def _off(vertices: Points, faces: Faces, _: Columns, __: Placement) -> bytes:
     return f"OFF\n{len(vertices)} {len(faces)} 0\n".encode() + _lines(vertices) + _lines(faces, "3 ")
 
 
@@ -141,46 +166,32 @@ def _records(table: Points, names: list[str]) -> NDArray[np.void]:
     return np.ascontiguousarray(table, "<f8").view([(name, "<f8") for name in names])[:, 0]
 
 
-def _stl(vertices: Points, faces: Faces) -> bytes:
+def _mesh_ply(vertices: Points, faces: Faces, columns: Columns, _: Placement) -> bytes:
+    others = [(name, column.dtype) for name, column in columns.items()]
+    table = np.empty(len(vertices), [*((axis, np.dtype("<f8")) for axis in "xyz"), *others])
+    table["x"], table["y"], table["z"] = vertices.T
+    for name, column in columns.items():
+        table[name] = column
+    return _ply(table, faces)
+
+
+def _stl(vertices: Points, faces: Faces, _: Columns, __: Placement) -> bytes:
     import trimesh  # takes a second, which the other formats need not wait for
 
     mesh = trimesh.Trimesh(vertices, faces, process=False)
-    # What is too large for single precision is infinitely far off.
+    if loses_digits(vertices):
+        return trimesh.exchange.stl.export_stl_ascii(mesh).encode()
     with np.errstate(all="ignore"):
-        loss = abs(vertices - vertices.astype(np.float32)).max(initial=0)
-        if loss > FLOAT32_LOSS * diagonal_of(*_bounds(vertices)):
-            return trimesh.exchange.stl.export_stl_ascii(mesh).encode()
         return trimesh.exchange.stl.export_stl(mesh)
 
 
-def _bounds(vertices: Points) -> tuple[Points, Points]:
-    """Return the lowest and the highest corner (3,) of the bounding box; that of nothing is the origin."""
-    return (vertices.min(axis=0), vertices.max(axis=0)) if len(vertices) else (np.zeros(3), np.zeros(3))
+def _glb(vertices: Points, faces: Faces, columns: Columns, placement: Placement) -> bytes:
+    return glb(vertices - placement.shift, faces, colors_of(columns), placement.as_dict())
 
 
-def _glb(vertices: Points, faces: Faces) -> bytes:
-    import trimesh
-
-    lowest, highest = _bounds(vertices)
-    center, extent = lowest / 2 + highest / 2, diagonal_of(lowest, highest)
-    # A power of two, by which scaling loses nothing.
-    scale = 1.0 if FLOAT32_LEAST < extent < FLOAT32_MOST else 2.0 ** math.frexp(extent)[1]
-    transform = np.diag([scale, scale, scale, 1.0])
-    transform[:3, 3] = center
-    scene = trimesh.Scene()
-    scene.add_geometry(
-        trimesh.Trimesh((vertices - center) / scale, faces, process=False),
-        node_name="mesh",
-        geom_name="mesh",
-        transform=transform,
-    )
-    content: bytes = trimesh.exchange.gltf.export_glb(scene)
-    return content
-
-
-MESH_FORMATS: dict[str, Callable[[Points, Faces], bytes]] = {
+MESH_FORMATS: dict[str, Callable[[Points, Faces, Columns, Placement], bytes]] = {
     ".obj": _obj,
-    ".ply": lambda vertices, faces: _ply(_records(vertices, ["x", "y", "z"]), faces),
+    ".ply": _mesh_ply,
     ".off": _off,
     ".stl": _stl,
     ".glb": _glb,

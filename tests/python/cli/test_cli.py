@@ -347,3 +347,27 @@ def test_info_of_a_single_point(tmp_path: Path, capsys: Capture) -> None:
     (tmp_path / "scan.xyz").write_text("1 2 3\n")
     assert run(["info", str(tmp_path / "scan.xyz")]) == 0
     assert "unknown" in capsys.readouterr().out
+
+
+def test_attributes_arrive_in_the_mesh_and_classes_take_a_part(tmp_path: Path) -> None:
+    points = sphere_points(1000)
+    below = np.where(points[:, 2] < 0, 2, 6)
+    columns = np.column_stack([points, np.tile([250, 128, 0], (1000, 1)), below])
+    header = "x,y,z,red,green,blue,classification"
+    np.savetxt(tmp_path / "scan.csv", columns, delimiter=",", header=header, comments="")
+    scan, mesh = str(tmp_path / "scan.csv"), str(tmp_path / "mesh.ply")
+    assert run(["reconstruct", scan, mesh, "--classes", "2", "--quiet"]) == 0
+    made = read_points(mesh)
+    assert made.points[:, 2].max() < 0.3
+    assert {name: set(made.attributes[name].tolist()) for name in ("red", "green", "blue", "classification")} == {
+        "red": {250},
+        "green": {128},
+        "blue": {0},
+        "classification": {2},
+    }
+    assert run(["reconstruct", scan, mesh, "--classes", "9", "--quiet"]) == 2
+
+
+def test_the_file_that_says_where_a_mesh_lies_takes_no_others_place(scan: str, tmp_path: Path) -> None:
+    beside = str(tmp_path / "mesh.world.json")
+    assert run(["reconstruct", scan, str(tmp_path / "mesh.glb"), "--report", beside]) == 2

@@ -5,8 +5,10 @@ from __future__ import annotations
 
 import sys
 import time
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from types import ModuleType
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -30,6 +32,8 @@ class Reconstruction:
     vertices: Array
     faces: NDArray[np.int64]
     report: Report
+    attributes: Mapping[str, NDArray[Any]] = field(default_factory=dict)
+    crs: str | None = None
 
 
 @dataclass

@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 
 from hdpea.errors import UsageError
 from hdpea.reading import read_points
+from hdpea.reading.triangle_mesh import parse_triangle_mesh
 from hdpea.writing.meshes import MESH_FORMATS, write_mesh, write_points
 
 EXACT_FORMATS = (".obj", ".ply", ".off")
@@ -24,6 +25,8 @@ coordinates = st_numpy.arrays(np.float64, (4, 3), elements=st.floats(-1e12, 1e12
 
 
 def read_mesh(path: Path) -> trimesh.Trimesh:
+    if path.suffix == ".glb":  # has axes of its own
+        return trimesh.Trimesh(*parse_triangle_mesh(path), process=False)
     loaded = trimesh.load(path, process=False)
     return loaded.to_geometry() if isinstance(loaded, trimesh.Scene) else loaded
 

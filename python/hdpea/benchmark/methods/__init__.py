@@ -29,6 +29,7 @@ from hdpea.benchmark.methods.options import (
 )
 from hdpea.errors import UsageError
 from hdpea.options import Options
+from hdpea.options.classes import Classes
 from hdpea.options.lengths import Length
 from hdpea.options.position import Position
 from hdpea.options.settings import options_from, settings
@@ -118,7 +119,7 @@ def libraries(method: str, options: Any) -> tuple[str, ...]:
 
 def _understood(values: Mapping[str, Any]) -> dict[str, Any]:
     """Return settings of a reconstruction with lengths and positions parsed as on the command line."""
-    kinds: dict[type, Callable[[str], Any]] = {Length: Length.parse, Position: Position.parse}
+    kinds: dict[type, Callable[[str], Any]] = {Length: Length.parse, Position: Position.parse, Classes: Classes.parse}
     parsers = {each.name: kinds[each.kind] for each in settings() if each.kind in kinds}
     try:
         return {name: parsers[name](str(value)) if name in parsers else value for name, value in values.items()}

@@ -1,0 +1,33 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A part of a cloud, by the classes of its points."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from hdpea.errors import UsageError
+from hdpea.options.classes import Classes
+from hdpea.reading.attributes import classes_of
+from hdpea.reading.cloud import PointCloud
+
+
+def of_classes(cloud: PointCloud, classes: Classes) -> PointCloud:
+    """Return the points of a cloud that are of one of the classes, and a note of how many they are.
+
+    Raises
+    ------
+    UsageError
+        If the points have no classes, or none has one of these.
+    """
+    found = classes_of(cloud.attributes)
+    if found is None:
+        named = ", ".join(cloud.attributes) or "none"
+        raise UsageError(f"`classes` is given, but the points have no classification (attributes: {named}).")
+    rows = np.flatnonzero(np.isin(found, classes.numbers))
+    if not len(rows):
+        there = ", ".join(map(str, np.unique(found)[:20]))
+        raise UsageError(f"No point is of the `classes` {classes}.", f"There are points of the classes {there}.")
+    note = f"Taken: the {len(rows):,} of {len(found):,} points that are of the classes {classes}."
+    return replace(cloud.at(rows), notes=(*cloud.notes, note))

@@ -1,0 +1,145 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""GLB, the binary form of glTF 2.0 (ISO/IEC 12113), as browsers, game engines and Blender expect it."""
+
+from __future__ import annotations
+
+import json
+import math
+import struct
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hdpea.geometry.color import linear_of_srgb
+from hdpea.geometry.triangles import vertex_normals
+from hdpea.geometry.unit_frame import diagonal_of
+
+FLOAT32_LEAST, FLOAT32_MOST = 1e-30, 1e30
+"""Sizes of meshes between which single precision has all its digits for their details, too."""
+
+GLTF_FROM_WORLD = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, -1.0, 0.0]])
+"""glTF has y up and x to the right; scans have z up. Blender and others turn it back."""
+
+MATERIAL = {
+    "name": "surface",
+    "pbrMetallicRoughness": {"metallicFactor": 0.0, "roughnessFactor": 0.9},
+    # What was scanned from one side is seen from the other, too.
+    "doubleSided": True,
+}
+
+_JSON, _BIN = 0x4E4F534A, 0x004E4942
+_COMPONENTS = {"float32": 5126, "uint16": 5123, "uint32": 5125}
+_ARRAY_BUFFER, _ELEMENT_ARRAY_BUFFER = 34962, 34963
+
+
+def glb(
+    vertices: NDArray[np.float64],
+    faces: NDArray[np.int64],
+    colors: NDArray[np.uint8] | None = None,
+    extras: dict[str, Any] | None = None,
+    generator: str = "hdpea",
+) -> bytes:
+    """Return the content of a GLB file: one mesh with normals, a material and, if given, colours.
+
+    Parameters
+    ----------
+    vertices
+        (v, 3) with z up, in metres; near the origin, since the file holds single precision.
+    faces
+        (f, 3).
+    colors
+        (v, 3), sRGB. The file holds them as linear light of 16 bits, of which 8 would not tell dark colours apart.
+    extras
+        What the node says besides; Blender shows it as custom properties.
+    """
+    scale = _scale_of(vertices)
+    node: dict[str, Any] = {"name": "mesh"}
+    if scale != 1:
+        node["scale"] = [scale] * 3
+    if extras:
+        node["extras"] = extras
+    tree = {
+        "asset": {"version": "2.0", "generator": generator},
+        "scene": 0,
+        "scenes": [{"nodes": [0]}],
+        "nodes": [node],
+    }
+    buffer = _Buffer()
+    if len(faces):
+        node["mesh"] = 0
+        tree |= _meshes(buffer, vertices / scale, faces, colors) | buffer.described()
+    text = json.dumps(tree, separators=(",", ":")).encode()
+    chunks = _chunk(_JSON, text, b" ") + (_chunk(_BIN, bytes(buffer.content), b"\0") if buffer.content else b"")
+    return struct.pack("<4sII", b"glTF", 2, 12 + len(chunks)) + chunks
+
+
+def _meshes(
+    buffer: _Buffer, vertices: NDArray[np.float64], faces: NDArray[np.int64], colors: NDArray[np.uint8] | None
+) -> dict[str, Any]:
+    """Put the arrays of a mesh into the buffer, and return the mesh and its material."""
+    attributes = {
+        "POSITION": buffer.add((vertices @ GLTF_FROM_WORLD.T).astype(np.float32), bounds=True),
+        "NORMAL": buffer.add((vertex_normals(vertices, faces) @ GLTF_FROM_WORLD.T).astype(np.float32)),
+    }
+    if colors is not None:
+        attributes["COLOR_0"] = buffer.add(_linear_16_bit(colors))
+    # The largest number of its type is no index: it would restart the primitive.
+    narrow = len(vertices) <= np.iinfo(np.uint16).max
+    indices = buffer.add(faces.ravel().astype(np.uint16 if narrow else np.uint32), indices=True)
+    primitive = {"attributes": attributes, "indices": indices, "material": 0}
+    return {"meshes": [{"name": "mesh", "primitives": [primitive]}], "materials": [MATERIAL]}
+
+
+def _scale_of(vertices: NDArray[np.float64]) -> float:
+    """Return by what to divide the vertices to fit single precision: a power of two, by which nothing is lost."""
+    extent = diagonal_of(vertices.min(axis=0), vertices.max(axis=0)) if len(vertices) else 1.0
+    return 1.0 if FLOAT32_LEAST < extent < FLOAT32_MOST else 2.0 ** math.frexp(extent)[1]
+
+
+def _linear_16_bit(colors: NDArray[np.uint8]) -> NDArray[np.uint16]:
+    """Return linear RGBA (v, 4): three numbers of 16 bits would not end where the next may begin."""
+    light = np.append(linear_of_srgb(colors / 255.0), np.ones((len(colors), 1)), axis=1)
+    return np.asarray(np.rint(65535 * light), np.uint16)
+
+
+def _chunk(kind: int, content: bytes, padding: bytes) -> bytes:
+    content += padding * (-len(content) % 4)
+    return struct.pack("<II", len(content), kind) + content
+
+
+class _Buffer:
+    """The binary part of a file, and what it says is in there."""
+
+    def __init__(self) -> None:
+        self.content = bytearray()
+        self.views: list[dict[str, int]] = []
+        self.accessors: list[dict[str, Any]] = []
+
+    def add(self, array: NDArray[Any], bounds: bool = False, indices: bool = False) -> int:
+        """Append an array (n, c), or indices (n,), and return the number of its accessor."""
+        start = len(self.content)
+        self.content += array.astype(array.dtype.newbyteorder("<")).tobytes()
+        self.content += bytes(-len(self.content) % 4)
+        target = _ELEMENT_ARRAY_BUFFER if indices else _ARRAY_BUFFER
+        self.views.append({"buffer": 0, "byteOffset": start, "byteLength": array.nbytes, "target": target})
+        accessor = {
+            "bufferView": len(self.views) - 1,
+            "componentType": _COMPONENTS[array.dtype.name],
+            "count": len(array),
+            "type": "SCALAR" if array.ndim == 1 else f"VEC{array.shape[1]}",
+        }
+        if bounds:
+            accessor |= {"min": array.min(axis=0).tolist(), "max": array.max(axis=0).tolist()}
+        if array.dtype == np.uint16 and not indices:
+            accessor["normalized"] = True
+        self.accessors.append(accessor)
+        return len(self.accessors) - 1
+
+    def described(self) -> dict[str, Any]:
+        """Return what the file says about it."""
+        return {
+            "accessors": self.accessors,
+            "bufferViews": self.views,
+            "buffers": [{"byteLength": len(self.content)}],
+        }
