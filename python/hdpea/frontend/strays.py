@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 from hdpea import _core
 from hdpea.frontend.standing import Standing
+from hdpea.geometry.thinning import rows_along
 
 REACHES = (12, 24)
 """Numbers of nearest points that a point's distance to the last of is compared; small heaps of strays need the more."""
@@ -34,6 +35,13 @@ Both, since at an edge points lie off the plane of others that do so too, and on
 LEAST_DEVIATION = 0.3
 """Least standard deviation that the others are granted, in spacings: of twelve points it may be small by chance."""
 
+SAMPLES, MOST_THICKNESS = 2_000, 0.45
+"""Points at which it is looked whether there are planes to lie off, and the median ratio of the deviations of those
+around across and along from which on there are none.
+
+Noise of half a spacing has that; of a sphere's points with noise of a whole one 1 % would be strays, most of them
+outside, and the two sides of what is left pass for walls."""
+
 COMPANY = 4
 """Others, of the 24 nearest, that lie as far off the plane on the same side, of which one makes no stray.
 
@@ -56,7 +64,8 @@ def find_strays(points: NDArray[np.float64], nearest: NDArray[np.int64], on_line
     found say nothing about others; so it is repeated without them until no more are found. Neither moving, turning nor
     scaling the cloud makes a difference.
 
-    Of points `on_lines`, where the plane of the nearest means nothing, only those count that lie four times as far.
+    Of points `on_lines`, where the plane of the nearest means nothing, only those count that lie four times as far. Nor
+    does it where noise is as wide as the points are apart.
 
     Parameters
     ----------
@@ -64,20 +73,20 @@ def find_strays(points: NDArray[np.float64], nearest: NDArray[np.int64], on_line
         (n, 24) or more: the nearest other points of each.
     """
     standing = Standing(points, nearest[:, : max(REACHES)])
-    rows = standing.rows
+    rows, planar = standing.rows, not on_lines and _show_planes(standing)
+    farther = FARTHER_FROM_LINES if on_lines else FARTHER
     for _ in range(ROUNDS):
-        found = _stand_out(standing, rows, on_lines)
+        found = _stand_out(standing, rows, farther, planar)
         if not len(found) or len(standing.rows) - len(found) <= max(REACHES):
             break
         rows = standing.drop(found)
     return ~standing.left
 
 
-def _stand_out(standing: Standing, rows: NDArray[np.int64], on_lines: bool) -> NDArray[np.int64]:
+def _stand_out(standing: Standing, rows: NDArray[np.int64], farther: float, planar: bool) -> NDArray[np.int64]:
     """Return which points stand out: of the `rows`, around which something changed, and of those that are sparse."""
     nearest = standing.nearest[rows]
     out = np.zeros(len(standing.points), dtype=bool)
-    farther = FARTHER_FROM_LINES if on_lines else FARTHER
     for count in REACHES:
         reached = standing.reached(count)
         out[rows] |= reached[rows] > farther * _around(reached, nearest[:, :count])
@@ -85,7 +94,7 @@ def _stand_out(standing: Standing, rows: NDArray[np.int64], on_lines: bool) -> N
     sparse = left[~out[left] & (reached[left] > SPARSE * np.median(reached[left]))]
     if len(sparse) and len(left) > FAR_REACH:
         out[sparse] = _lie_far_off(standing.points, left, sparse, farther)
-    if not on_lines:
+    if planar:
         # A disk that reaches to the k-th neighbour holds k points.
         wide = _around(standing.reached(PLANE_POINTS), nearest[:, :PLANE_POINTS])
         out[rows] |= _off_the_plane(standing, rows, wide * np.sqrt(np.pi / PLANE_POINTS))
@@ -110,16 +119,36 @@ def _around(values: NDArray[np.float64], nearest: NDArray[np.int64]) -> NDArray[
     return np.asarray(np.quantile(values[nearest], SURROUNDINGS, axis=1))
 
 
-def _off_the_plane(standing: Standing, rows: NDArray[np.int64], spacing: NDArray[np.float64]) -> NDArray[np.bool_]:
-    """Return which of the `rows` lie off the plane of the points nearest to them, as few of these do; (rows,) bool."""
-    points = standing.points
-    near = points[standing.nearest[rows, :PLANE_POINTS]] - points[rows, None]
+def _show_planes(standing: Standing) -> bool:
+    """Return whether points lie next to planes, most of them: noise is less than they are apart."""
+    rows = rows_along(len(standing.points), SAMPLES)
+    variances, _, _ = _planes(standing, rows)
+    return bool(np.median(np.sqrt(variances[:, 0] / variances[:, 1])) < MOST_THICKNESS)
+
+
+def _planes(
+    standing: Standing, rows: NDArray[np.int64]
+) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
+    """Return how the points nearest to each row lie.
+
+    That is their variances (m, 3), ascending, along which axes (m, 3, 3), and how far their middle is from the row's
+    own point along the first of these, (m,).
+    """
+    near = standing.points[standing.nearest[rows, :PLANE_POINTS]] - standing.points[rows, None]
     middle = near.mean(axis=1)
     around = near - middle[:, None]
     variances, axes = np.linalg.eigh(around.swapaxes(1, 2) @ around / PLANE_POINTS)
-    below = np.einsum("nc,nc->n", middle, axes[:, :, 0])
+    # What is distinct may still be too near for squares.
+    least = np.finfo(np.float64).tiny
+    return np.maximum(variances, least), axes, np.einsum("nc,nc->n", middle, axes[:, :, 0])
+
+
+def _off_the_plane(standing: Standing, rows: NDArray[np.int64], spacing: NDArray[np.float64]) -> NDArray[np.bool_]:
+    """Return which of the `rows` lie off the plane of the points nearest to them, as few of these do; (rows,) bool."""
+    points = standing.points
+    variances, axes, below = _planes(standing, rows)
     height = abs(below)
-    deviation = np.maximum(np.sqrt(np.maximum(variances[:, 0], 0)), LEAST_DEVIATION * spacing)
+    deviation = np.maximum(np.sqrt(variances[:, 0]), LEAST_DEVIATION * spacing)
     off: NDArray[np.bool_] = (height > OFF_THE_PLANE * spacing) & (height > OFF_THE_REST * deviation)
     chosen = np.flatnonzero(off)
     offsets = points[standing.nearest[rows[chosen]]] - points[rows[chosen], None]

@@ -45,6 +45,12 @@ def test_an_even_cloud_is_kept_as_it_is() -> None:
     assert np.array_equal(found.kept, ~found.strays)
 
 
+@pytest.mark.parametrize("deviation", [0.3, 1.0, 1.5])
+def test_noise_is_not_taken_for_strays(deviation: float) -> None:
+    noise = 1 + deviation * np.sqrt(4 * np.pi / 4000) * np.random.default_rng(6).normal(size=(4000, 1))
+    assert classify(noise * sphere_points(4000)).strays.mean() <= 5e-3
+
+
 def test_two_sides_of_a_thin_plate_are_surface() -> None:
     flat = np.random.default_rng(3).random((4000, 2))
     plate = np.column_stack([flat, np.arange(4000) % 2 * 0.03])
