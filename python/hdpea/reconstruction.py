@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -23,6 +23,7 @@ from hdpea.mesh.sides import FacedMesh, facing_out
 from hdpea.options import Classes, Length, Options
 from hdpea.options.settings import changed
 from hdpea.reading.cloud import PointCloud, cleaned_cloud
+from hdpea.reading.objects import PointsLike
 from hdpea.report.agreement import agreement_of
 from hdpea.report.measurement import distances_to, mesh_facts, missed_targets
 from hdpea.report.report import Journal, Report
@@ -33,6 +34,11 @@ from hdpea.runtime.threads import limited_threads
 from hdpea.surface.preparation import prepare_surface
 from hdpea.surface.surface import Surface
 from hdpea.writing.meshes import write_mesh
+from hdpea.writing.objects import as_open3d, as_pyvista, as_trimesh
+
+if TYPE_CHECKING:
+    import pyvista
+    import trimesh
 
 PHASES = (
     "cleaning",
@@ -82,9 +88,33 @@ class Reconstruction:
         """Write the mesh with its attributes and where it lies, as ``hdpea.write_mesh`` does."""
         write_mesh(path, self.vertices, self.faces, self.attributes, self.crs)
 
+    def to_trimesh(self) -> trimesh.Trimesh:
+        """Return it with colours, the other attributes as ``vertex_attributes``."""
+        return as_trimesh(self.vertices, self.faces, self.attributes)
+
+    def to_open3d(self) -> Any:
+        """Return an ``open3d.geometry.TriangleMesh`` with normals and colours.
+
+        Raises
+        ------
+        UsageError
+            If Open3D is not installed.
+        """
+        return as_open3d(self.vertices, self.faces, self.attributes)
+
+    def to_pyvista(self) -> pyvista.PolyData:
+        """Return it with colours as ``RGB`` and the other attributes, in its ``point_data``.
+
+        Raises
+        ------
+        UsageError
+            If PyVista is not installed.
+        """
+        return as_pyvista(self.vertices, self.faces, self.attributes)
+
 
 def reconstruct(
-    points: ArrayLike | PointCloud,
+    points: PointsLike,
     normals: ArrayLike | None = None,
     options: Options | None = None,
     progress: ProgressCallback | None = None,
@@ -108,8 +138,9 @@ def reconstruct(
     Parameters
     ----------
     points
-        (n, 3) in any unit and frame; what is not finite or occurs twice is dropped. Or a cloud as ``read_points``
-        returns it, which brings its normals and sensors.
+        (n, 3) in any unit and frame, an array or a tensor; what is not finite or occurs twice is dropped. Or a cloud
+        that brings its normals and attributes: as ``hdpea.read`` returns it, a cloud or mesh of Open3D, trimesh or
+        PyVista, a table with columns x, y and z (a structured array, such as PDAL's, or pandas').
     normals
         (n, 3) of any length and sign; estimated where missing, zero or not finite.
     options
