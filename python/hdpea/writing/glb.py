@@ -38,7 +38,6 @@ def glb(
     faces: NDArray[np.int64],
     colors: NDArray[np.uint8] | None = None,
     extras: dict[str, Any] | None = None,
-    generator: str = "hdpea",
 ) -> bytes:
     """Return the content of a GLB file: one mesh with normals, a material and, if given, colours.
 
@@ -60,7 +59,7 @@ def glb(
     if extras:
         node["extras"] = extras
     tree = {
-        "asset": {"version": "2.0", "generator": generator},
+        "asset": {"version": "2.0", "generator": "hdpea"},
         "scene": 0,
         "scenes": [{"nodes": [0]}],
         "nodes": [node],

@@ -38,7 +38,7 @@ def write_mesh(
     OBJ, PLY and OFF hold the vertices exactly. STL is binary, or text where single precision would
     move the vertices of a georeferenced mesh. GLB has y up, counts in metres, and is scaled if single precision could
     not hold its size; a georeferenced mesh is shifted there. Shift and `crs` are written beside the mesh, as
-    ``mesh.world.json``, if there are any, and into the extras of the GLB's node.
+    ``mesh.glb.world.json``, if there are any, and into the extras of the GLB's node.
 
     Parameters
     ----------

@@ -89,7 +89,7 @@ def test_a_georeferenced_mesh_is_shifted_and_the_shift_is_told(tmp_path: Path) -
     vertices = tetrahedron(size=0.1) + UTM
     tree, arrays = parts_of(written(tmp_path, vertices, crs="EPSG:25832"))
     assert "translation" not in tree["nodes"][0]
-    beside = json.loads((tmp_path / "mesh.world.json").read_text())
+    beside = json.loads((tmp_path / "mesh.glb.world.json").read_text())
     assert beside == tree["nodes"][0]["extras"]
     assert beside["crs"] == "EPSG:25832"
     world = {"shift": beside["shift"], **dict(zip("xyz", arrays["POSITION"].astype(float).T, strict=True))}
@@ -100,7 +100,7 @@ def test_a_georeferenced_mesh_is_shifted_and_the_shift_is_told(tmp_path: Path) -
 
 def test_other_formats_say_their_crs_beside_them(tmp_path: Path) -> None:
     write_mesh(tmp_path / "mesh.obj", tetrahedron(), TETRAHEDRON_FACES, crs="EPSG:25832")
-    beside = json.loads((tmp_path / "mesh.world.json").read_text())
+    beside = json.loads((tmp_path / "mesh.obj.world.json").read_text())
     assert (beside["crs"], beside["shift"], beside["up"]) == ("EPSG:25832", [0, 0, 0], "z")
 
 
