@@ -15,13 +15,16 @@ from hdpea.embedding import Embedder, embed_surface
 from hdpea.embedding.tangents import tangent_bases
 from hdpea.errors import core_errors_translated
 from hdpea.frontend.cleaning import DroppedPoints, surface_cloud
+from hdpea.geometry.texture import Texture
 from hdpea.mesh.assembly import assemble_mesh
 from hdpea.mesh.attributes import vertex_attributes
 from hdpea.mesh.budget import particles_wanted
 from hdpea.mesh.extraction import Mesh
 from hdpea.mesh.sides import FacedMesh, facing_out
+from hdpea.mesh.texture import require_colors, texture_of
 from hdpea.options import Classes, Length, Options
 from hdpea.options.settings import changed
+from hdpea.reading.attributes import split_colors
 from hdpea.reading.cloud import PointCloud, cleaned_cloud
 from hdpea.reading.objects import PointsLike
 from hdpea.report.agreement import agreement_of
@@ -75,6 +78,8 @@ class Reconstruction:
         are red, green and blue, sRGB of 8 bits.
     crs
         The coordinate reference system of the vertices, if the cloud's is known.
+    texture
+        An image of the colours of the points and how it lies on the mesh, if it was asked for.
     """
 
     vertices: NDArray[np.float64]
@@ -83,10 +88,11 @@ class Reconstruction:
     dropped: DroppedPoints = field(default_factory=DroppedPoints)
     attributes: Mapping[str, NDArray[Any]] = field(default_factory=dict)
     crs: str | None = None
+    texture: Texture | None = None
 
     def write(self, path: str | Path) -> None:
-        """Write the mesh with its attributes and where it lies, as ``hdpea.write_mesh`` does."""
-        write_mesh(path, self.vertices, self.faces, self.attributes, self.crs)
+        """Write the mesh with its attributes, its texture and where it lies, as ``hdpea.write_mesh`` does."""
+        write_mesh(path, self.vertices, self.faces, self.attributes, self.crs, self.texture)
 
     def to_trimesh(self) -> trimesh.Trimesh:
         """Return it with colours, the other attributes as ``vertex_attributes``."""
@@ -131,6 +137,7 @@ def reconstruct(
     seed: int | None = None,
     threads: int | None = None,
     classes: Iterable[int] | str | None = None,
+    texture: int | None = None,
     attributes: Mapping[str, ArrayLike] | None = None,
 ) -> Reconstruction:
     """Make a compact anisotropic triangle mesh of a point cloud.
@@ -169,11 +176,13 @@ def reconstruct(
         To use; 0 (default): all cores. The result is the same for any number.
     classes
         Take only the points of these classes: ``[2, 6]`` or ``"2,6"``. Default: all points.
+    texture
+        Make an image of the colours of the points, of so many pixels each way. Default: none.
     attributes
         (n,) or (n, c) by name, of points given as an array: what the vertices are to have, too. Colours are red, green
         and blue, or `colors` (n, 3).
 
-    Those from `vertices` to `classes` are the common ones among the options, and overrule `options`, where all others
+    Those from `vertices` to `texture` are the common ones among the options, and overrule `options`, where all others
     are.
 
     Raises
@@ -208,6 +217,7 @@ def reconstruct(
         "seed": seed,
         "threads": threads,
         "classes": None if classes is None else Classes.of(classes),
+        "texture": texture,
     }
     given = {name: value for name, value in common.items() if value is not None}
     options = changed(options or Options(), given)
@@ -216,6 +226,8 @@ def reconstruct(
     clock = journal.clock
     with limited_threads(options.threads), core_errors_translated():
         cloud = cleaned_cloud(points, normals, sensors, attributes)
+        if options.texture is not None:
+            require_colors(cloud.attributes)
         with clock.stage("cleaning"):
             tell(progress, "cleaning", 0)
             found = surface_cloud(cloud, options.cleaning)
@@ -231,6 +243,7 @@ def reconstruct(
         mesh = assemble_mesh(surface, embedded.coordinates, bases, options, progress, clock, found.points_shown)
         # Before any piece is turned, as its points are not.
         carried = _carried(mesh, surface, cloud, clock)
+        texture_of_points = _texture(mesh, surface, cloud, options.texture, clock)
         faced = facing_out(mesh) if prepared.oriented.computed_sides else FacedMesh(mesh)
         mesh = faced.mesh
         with clock.stage("measuring"):
@@ -249,7 +262,7 @@ def reconstruct(
     journal.missed += [*missed_targets(mesh, facts, options.meshing), *agreement.missed()]
     vertices_in_world = surface.frame.to_world(mesh.vertices_in_unit)
     report = Report.of(journal, facts, distances, agreement)
-    return Reconstruction(vertices_in_world, mesh.faces, report, found.dropped, carried, cloud.crs)
+    return Reconstruction(vertices_in_world, mesh.faces, report, found.dropped, carried, cloud.crs, texture_of_points)
 
 
 def _carried(mesh: Mesh, surface: Surface, cloud: PointCloud, clock: StageClock) -> dict[str, NDArray[Any]]:
@@ -258,3 +271,12 @@ def _carried(mesh: Mesh, surface: Surface, cloud: PointCloud, clock: StageClock)
         return {}
     with clock.stage("attributes"):
         return vertex_attributes(mesh, surface, cloud.attributes)
+
+
+def _texture(mesh: Mesh, surface: Surface, cloud: PointCloud, size: int | None, clock: StageClock) -> Texture | None:
+    """Return the texture, if one is asked for."""
+    colors, _ = split_colors(cloud.attributes)
+    if size is None or colors is None:
+        return None
+    with clock.stage("texture"):
+        return texture_of(mesh, surface, colors, size)
