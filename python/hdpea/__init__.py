@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from hdpea.embedding import Embedding as Embedding
     from hdpea.embedding import embed_points as embed_points
     from hdpea.options.reconstruction import Options as Options
+    from hdpea.reading import read as read
     from hdpea.reading import read_points as read_points
     from hdpea.reconstruction import Reconstruction as Reconstruction
     from hdpea.reconstruction import reconstruct as reconstruct
@@ -31,6 +32,7 @@ __all__ = [
     "Reconstruction",
     "embed_points",
     "estimate_curvature",
+    "read",
     "read_points",
     "reconstruct",
     "write_mesh",
@@ -46,6 +48,7 @@ __getattr__, __dir__ = lazy_names(
         "Reconstruction": "hdpea.reconstruction",
         "embed_points": "hdpea.embedding",
         "estimate_curvature": "hdpea.curvature.estimation",
+        "read": "hdpea.reading",
         "read_points": "hdpea.reading",
         "reconstruct": "hdpea.reconstruction",
         "write_mesh": "hdpea.writing.meshes",

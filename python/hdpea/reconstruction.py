@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -15,14 +15,18 @@ from hdpea.embedding import Embedder, embed_surface
 from hdpea.embedding.tangents import tangent_bases
 from hdpea.errors import core_errors_translated
 from hdpea.frontend.cleaning import DroppedPoints, surface_cloud
+from hdpea.geometry.texture import Texture
 from hdpea.mesh.assembly import assemble_mesh
 from hdpea.mesh.attributes import vertex_attributes
 from hdpea.mesh.budget import particles_wanted
 from hdpea.mesh.extraction import Mesh
 from hdpea.mesh.sides import FacedMesh, facing_out
+from hdpea.mesh.texture import require_colors, texture_of
 from hdpea.options import Classes, Length, Options
 from hdpea.options.settings import changed
+from hdpea.reading.attributes import split_colors
 from hdpea.reading.cloud import PointCloud, cleaned_cloud
+from hdpea.reading.objects import PointsLike
 from hdpea.report.agreement import agreement_of
 from hdpea.report.measurement import distances_to, mesh_facts, missed_targets
 from hdpea.report.report import Journal, Report
@@ -33,6 +37,11 @@ from hdpea.runtime.threads import limited_threads
 from hdpea.surface.preparation import prepare_surface
 from hdpea.surface.surface import Surface
 from hdpea.writing.meshes import write_mesh
+from hdpea.writing.objects import as_open3d, as_pyvista, as_trimesh
+
+if TYPE_CHECKING:
+    import pyvista
+    import trimesh
 
 PHASES = (
     "cleaning",
@@ -69,6 +78,8 @@ class Reconstruction:
         are red, green and blue, sRGB of 8 bits.
     crs
         The coordinate reference system of the vertices, if the cloud's is known.
+    texture
+        An image of the colours of the points and how it lies on the mesh, if it was asked for.
     """
 
     vertices: NDArray[np.float64]
@@ -77,14 +88,39 @@ class Reconstruction:
     dropped: DroppedPoints = field(default_factory=DroppedPoints)
     attributes: Mapping[str, NDArray[Any]] = field(default_factory=dict)
     crs: str | None = None
+    texture: Texture | None = None
 
     def write(self, path: str | Path) -> None:
-        """Write the mesh with its attributes and where it lies, as ``hdpea.write_mesh`` does."""
-        write_mesh(path, self.vertices, self.faces, self.attributes, self.crs)
+        """Write the mesh with its attributes, its texture and where it lies, as ``hdpea.write_mesh`` does."""
+        write_mesh(path, self.vertices, self.faces, self.attributes, self.crs, self.texture)
+
+    def to_trimesh(self) -> trimesh.Trimesh:
+        """Return it with colours, the other attributes as ``vertex_attributes``."""
+        return as_trimesh(self.vertices, self.faces, self.attributes)
+
+    def to_open3d(self) -> Any:
+        """Return an ``open3d.geometry.TriangleMesh`` with normals and colours.
+
+        Raises
+        ------
+        UsageError
+            If Open3D is not installed.
+        """
+        return as_open3d(self.vertices, self.faces, self.attributes)
+
+    def to_pyvista(self) -> pyvista.PolyData:
+        """Return it with colours as ``RGB`` and the other attributes, in its ``point_data``.
+
+        Raises
+        ------
+        UsageError
+            If PyVista is not installed.
+        """
+        return as_pyvista(self.vertices, self.faces, self.attributes)
 
 
 def reconstruct(
-    points: ArrayLike | PointCloud,
+    points: PointsLike,
     normals: ArrayLike | None = None,
     options: Options | None = None,
     progress: ProgressCallback | None = None,
@@ -101,6 +137,7 @@ def reconstruct(
     seed: int | None = None,
     threads: int | None = None,
     classes: Iterable[int] | str | None = None,
+    texture: int | None = None,
     attributes: Mapping[str, ArrayLike] | None = None,
 ) -> Reconstruction:
     """Make a compact anisotropic triangle mesh of a point cloud.
@@ -108,8 +145,9 @@ def reconstruct(
     Parameters
     ----------
     points
-        (n, 3) in any unit and frame; what is not finite or occurs twice is dropped. Or a cloud as ``read_points``
-        returns it, which brings its normals and sensors.
+        (n, 3) in any unit and frame, an array or a tensor; what is not finite or occurs twice is dropped. Or a cloud
+        that brings its normals and attributes: as ``hdpea.read`` returns it, a cloud or mesh of Open3D, trimesh or
+        PyVista, a table with columns x, y and z (a structured array, such as PDAL's, or pandas').
     normals
         (n, 3) of any length and sign; estimated where missing, zero or not finite.
     options
@@ -138,11 +176,13 @@ def reconstruct(
         To use; 0 (default): all cores. The result is the same for any number.
     classes
         Take only the points of these classes: ``[2, 6]`` or ``"2,6"``. Default: all points.
+    texture
+        Make an image of the colours of the points, of so many pixels each way. Default: none.
     attributes
         (n,) or (n, c) by name, of points given as an array: what the vertices are to have, too. Colours are red, green
         and blue, or `colors` (n, 3).
 
-    Those from `vertices` to `classes` are the common ones among the options, and overrule `options`, where all others
+    Those from `vertices` to `texture` are the common ones among the options, and overrule `options`, where all others
     are.
 
     Raises
@@ -177,6 +217,7 @@ def reconstruct(
         "seed": seed,
         "threads": threads,
         "classes": None if classes is None else Classes.of(classes),
+        "texture": texture,
     }
     given = {name: value for name, value in common.items() if value is not None}
     options = changed(options or Options(), given)
@@ -185,6 +226,8 @@ def reconstruct(
     clock = journal.clock
     with limited_threads(options.threads), core_errors_translated():
         cloud = cleaned_cloud(points, normals, sensors, attributes)
+        if options.texture is not None:
+            require_colors(cloud.attributes)
         with clock.stage("cleaning"):
             tell(progress, "cleaning", 0)
             found = surface_cloud(cloud, options.cleaning)
@@ -200,6 +243,7 @@ def reconstruct(
         mesh = assemble_mesh(surface, embedded.coordinates, bases, options, progress, clock, found.points_shown)
         # Before any piece is turned, as its points are not.
         carried = _carried(mesh, surface, cloud, clock)
+        texture_of_points = _texture(mesh, surface, cloud, options.texture, clock)
         faced = facing_out(mesh) if prepared.oriented.computed_sides else FacedMesh(mesh)
         mesh = faced.mesh
         with clock.stage("measuring"):
@@ -218,7 +262,7 @@ def reconstruct(
     journal.missed += [*missed_targets(mesh, facts, options.meshing), *agreement.missed()]
     vertices_in_world = surface.frame.to_world(mesh.vertices_in_unit)
     report = Report.of(journal, facts, distances, agreement)
-    return Reconstruction(vertices_in_world, mesh.faces, report, found.dropped, carried, cloud.crs)
+    return Reconstruction(vertices_in_world, mesh.faces, report, found.dropped, carried, cloud.crs, texture_of_points)
 
 
 def _carried(mesh: Mesh, surface: Surface, cloud: PointCloud, clock: StageClock) -> dict[str, NDArray[Any]]:
@@ -227,3 +271,12 @@ def _carried(mesh: Mesh, surface: Surface, cloud: PointCloud, clock: StageClock)
         return {}
     with clock.stage("attributes"):
         return vertex_attributes(mesh, surface, cloud.attributes)
+
+
+def _texture(mesh: Mesh, surface: Surface, cloud: PointCloud, size: int | None, clock: StageClock) -> Texture | None:
+    """Return the texture, if one is asked for."""
+    colors, _ = split_colors(cloud.attributes)
+    if size is None or colors is None:
+        return None
+    with clock.stage("texture"):
+        return texture_of(mesh, surface, colors, size)

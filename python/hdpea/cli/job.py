@@ -32,12 +32,15 @@ class Job:
 
     def outputs(self) -> list[tuple[Path, str]]:
         """Return the files that are to be written, and the kind of each."""
+        from hdpea.writing.obj import texture_files
         from hdpea.writing.placement import placement_file
 
         mesh = self.destination.output
         kinds = {"mesh": mesh, "report": self.report, "picture": self.picture}
         kinds["placement"] = mesh and placement_file(mesh)
         kinds["set of dropped points"] = self.dropped
+        if mesh is not None and mesh.suffix.lower() == ".obj" and self.options.texture is not None:
+            kinds |= texture_files(mesh)
         return [(path, kind) for kind, path in kinds.items() if path is not None]
 
 
@@ -132,10 +135,11 @@ def make_mesh(job: Job, progress: ProgressCallback | None) -> Report:
 def _write_mesh(destination: Destination, result: Reconstruction) -> None:
     from hdpea.writing.meshes import mesh_content, write_mesh
 
+    mesh = result.vertices, result.faces, result.attributes, result.crs, result.texture
     if destination.output is not None:
-        write_mesh(destination.output, result.vertices, result.faces, result.attributes, result.crs)
+        write_mesh(destination.output, *mesh)
         return
-    content, _ = mesh_content(destination.extension, result.vertices, result.faces, result.attributes, result.crs)
+    content, _ = mesh_content(destination.extension, *mesh)
     sys.stdout.buffer.write(content)
     sys.stdout.buffer.flush()
 

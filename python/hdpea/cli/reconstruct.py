@@ -130,6 +130,7 @@ def _check_outputs(wanted: Sequence[Job], read: Sequence[Path | str | None], for
     from hdpea.writing.meshes import MESH_FORMATS, POINT_FORMATS
 
     formats = {"mesh": MESH_FORMATS, "report": [".json"], "placement": [".json"], "picture": PICTURE_FORMATS}
+    formats |= {"material": [".mtl"], "texture": [".png"]}
     kinds: dict[Path, str] = {}
     for job in wanted:
         for path, kind in job.outputs():
@@ -140,8 +141,18 @@ def _check_outputs(wanted: Sequence[Job], read: Sequence[Path | str | None], for
     for job in wanted:
         if job.picture:
             check_drawing()
+        _check_texture(job)
         require_no_scan(job.destination)
     check_replaceable(kinds, force)
+
+
+def _check_texture(job: Job) -> None:
+    from hdpea.writing.meshes import check_textured
+
+    textured, destination = job.options.texture is not None, job.destination
+    check_textured(destination.extension, textured)
+    if textured and destination.extension == ".obj" and destination.output is None:
+        raise UsageError("An OBJ with a `texture` is several files.", "Name the file, or write GLB.")
 
 
 def _make_folder(folder: Path) -> None:

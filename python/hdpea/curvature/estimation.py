@@ -28,6 +28,7 @@ from hdpea.options import NormalOptions
 from hdpea.options.choice import Choice
 from hdpea.options.meshing import POINTS_PER_VERTEX
 from hdpea.reading.cloud import PointCloud, cleaned_cloud
+from hdpea.reading.objects import PointsLike
 from hdpea.runtime.progress import ProgressCallback, tell
 from hdpea.runtime.threads import limited_threads
 from hdpea.surface.normals import ORIENTATION_NEIGHBORS
@@ -38,7 +39,7 @@ from hdpea.surface.surface import Surface
 
 
 def estimate_curvature(
-    points: ArrayLike | PointCloud,
+    points: PointsLike,
     normals: ArrayLike | None = None,
     options: CurvatureOptions | None = None,
     progress: ProgressCallback | None = None,

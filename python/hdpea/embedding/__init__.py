@@ -21,7 +21,8 @@ from hdpea.frontend.cleaning import surface_cloud
 from hdpea.geometry.unit_frame import UnitFrame
 from hdpea.options import EmbeddingOptions, Options
 from hdpea.options.choice import Choice
-from hdpea.reading.cloud import PointCloud, cleaned_cloud
+from hdpea.reading.cloud import cleaned_cloud
+from hdpea.reading.objects import PointsLike
 from hdpea.runtime.progress import PhaseCallback, ProgressCallback, of_phase
 from hdpea.runtime.threads import limited_threads
 from hdpea.surface.preparation import prepare_surface
@@ -78,7 +79,7 @@ def embed_surface(
 
 
 def embed_points(
-    points: ArrayLike | PointCloud,
+    points: PointsLike,
     normals: ArrayLike | None = None,
     options: Options | None = None,
     progress: ProgressCallback | None = None,

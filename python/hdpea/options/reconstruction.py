@@ -15,6 +15,9 @@ from hdpea.options.normals import NormalOptions
 from hdpea.options.particles import ENOUGH_PARTICLES, ENOUGH_PER_VERTEX, WORTH_SIMPLIFYING, ParticleOptions
 from hdpea.options.refinement import RefinementOptions
 
+TEXTURE_SIZES = {"minimum": 64, "maximum": 16384}
+"""Pixels each way; what is larger, graphics cards do not take."""
+
 
 @dataclass(frozen=True)
 class Options(Checked):
@@ -27,6 +30,11 @@ class Options(Checked):
     particles: ParticleOptions = ParticleOptions()
     meshing: MeshingOptions = MeshingOptions()
     refinement: RefinementOptions = RefinementOptions()
+    texture: int | None = option(
+        None,
+        "OBJ, GLB: colour the mesh by an image of so many pixels each way, for detail finer than the triangles",
+        **TEXTURE_SIZES,
+    )
     threads: int = option(0, "threads to use; 0: all cores (the result is the same for any number)", minimum=0)
 
     def __post_init__(self) -> None:

@@ -23,7 +23,7 @@ from hdpea.reading.meshes import parse_obj, parse_off
 from hdpea.reading.ply import parse_ply
 from hdpea.reading.text import parse_text
 
-__all__ = ["CLOUD_FORMATS", "DAMAGE", "PointCloud", "parse_points", "read_bytes", "read_points", "read_scans"]
+__all__ = ["CLOUD_FORMATS", "DAMAGE", "PointCloud", "parse_points", "read", "read_bytes", "read_points", "read_scans"]
 
 CLOUD_FORMATS = (
     ".ply", ".xyz", ".xyzn", ".txt", ".csv", ".asc", ".pts", ".pwn", ".obj", ".off", ".npy", ".npz"
@@ -105,6 +105,10 @@ def _read(path: str | PurePath) -> PointCloud:
     except UnreadableInput as error:
         raise UnreadableInput(f"Cannot read {name}: {error.message}", error.hint) from error
     return cloud
+
+
+read = read_points
+"""The same, as ``hdpea.read``."""
 
 
 def _standard_input() -> bytes:

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from hdpea.errors import UnreadableInput, UsageError
+from hdpea.reading.objects import Parts, PointsLike, as_array, parts_of
 
 NORMAL_NAMES = (("nx", "ny", "nz"), ("normal_x", "normal_y", "normal_z"), ("normalx", "normaly", "normalz"))
 
@@ -135,7 +136,7 @@ def from_arrays(
     for array, name in ((given, "normals"), (seen_from, "sensors")):
         if array is not None and len(array) != len(found):
             raise UsageError(f"There are {len(found)} points but {len(array)} {name}.", "Each point needs its own.")
-    others = {name: np.asarray(values) for name, values in (attributes or {}).items()}
+    others = {name: as_array(values) for name, values in (attributes or {}).items()}
     for name, values in others.items():
         if values.shape[:1] != (len(found),):
             hint = "Each point needs its own."
@@ -144,12 +145,12 @@ def from_arrays(
 
 
 def cleaned_cloud(
-    points: ArrayLike | PointCloud,
+    points: PointsLike,
     normals: ArrayLike | None = None,
     sensors: ArrayLike | None = None,
     attributes: Mapping[str, ArrayLike] | None = None,
 ) -> PointCloud:
-    """Return the cleaned cloud of a caller's arrays, as ``from_arrays`` takes them, or of a cloud.
+    """Return the cleaned cloud of a cloud, one of another library, or of arrays as ``from_arrays`` takes them.
 
     Raises
     ------
@@ -158,6 +159,9 @@ def cleaned_cloud(
     UnreadableInput
         If no point is left.
     """
+    parts = None if isinstance(points, PointCloud) else parts_of(points)
+    if parts is not None:
+        points = _of_parts(parts)
     if not isinstance(points, PointCloud):
         return cleaned(from_arrays(points, normals, sensors, attributes))
     if normals is not None or sensors is not None or attributes is not None:
@@ -165,9 +169,20 @@ def cleaned_cloud(
     return points if points.clean else cleaned(points)
 
 
+def _of_parts(parts: Parts) -> PointCloud:
+    notes = (MESH_NOTE,) if parts.is_mesh else ()
+    if not parts.is_table:
+        others = dict(parts.arrays)
+        return replace(from_arrays(others.pop("points"), others.pop("normals", None), None, others), notes=notes)
+    try:
+        return from_columns(parts.arrays, "table", notes)
+    except UnreadableInput as error:
+        raise UsageError(f"The points are a table: {error.message}", "Name its columns x, y and z.") from error
+
+
 def _rows(array: ArrayLike, name: str) -> NDArray[np.float64]:
     try:
-        rows = np.asarray(array, dtype=np.float64)
+        rows = as_array(array).astype(np.float64)
     except (TypeError, ValueError) as error:
         raise UsageError(f"The {name} are not numbers: {error}.", f"Give {name} as an (n, 3) array.") from error
     if rows.ndim != 2 or rows.shape[1] != 3:

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hdpea.geometry.color import linear_of_srgb
+from hdpea.geometry.texture import Texture
 from hdpea.geometry.triangles import vertex_normals
 from hdpea.geometry.unit_frame import diagonal_of
 
@@ -21,7 +22,7 @@ FLOAT32_LEAST, FLOAT32_MOST = 1e-30, 1e30
 GLTF_FROM_WORLD = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, -1.0, 0.0]])
 """glTF has y up and x to the right; scans have z up. Blender and others turn it back."""
 
-MATERIAL = {
+MATERIAL: dict[str, Any] = {
     "name": "surface",
     "pbrMetallicRoughness": {"metallicFactor": 0.0, "roughnessFactor": 0.9},
     # What was scanned from one side is seen from the other, too.
@@ -37,10 +38,11 @@ def glb(
     vertices: NDArray[np.float64],
     faces: NDArray[np.int64],
     colors: NDArray[np.uint8] | None = None,
+    texture: Texture | None = None,
+    image: bytes | None = None,
     extras: dict[str, Any] | None = None,
-    generator: str = "hdpea",
 ) -> bytes:
-    """Return the content of a GLB file: one mesh with normals, a material and, if given, colours.
+    """Return the content of a GLB file: one mesh with normals, a material and, if given, colours or a texture.
 
     Parameters
     ----------
@@ -50,6 +52,8 @@ def glb(
         (f, 3).
     colors
         (v, 3), sRGB. The file holds them as linear light of 16 bits, of which 8 would not tell dark colours apart.
+    texture, image
+        Where in the image each face lies, and the image as PNG. Programs multiply it by the colours: give one of them.
     extras
         What the node says besides; Blender shows it as custom properties.
     """
@@ -60,7 +64,7 @@ def glb(
     if extras:
         node["extras"] = extras
     tree = {
-        "asset": {"version": "2.0", "generator": generator},
+        "asset": {"version": "2.0", "generator": "hdpea"},
         "scene": 0,
         "scenes": [{"nodes": [0]}],
         "nodes": [node],
@@ -68,27 +72,48 @@ def glb(
     buffer = _Buffer()
     if len(faces):
         node["mesh"] = 0
-        tree |= _meshes(buffer, vertices / scale, faces, colors) | buffer.described()
+        tree |= _mesh(buffer, vertices / scale, faces, colors, texture)
+        tree |= {"materials": [MATERIAL]} if image is None else _textured_material(buffer, image)
+        tree |= buffer.described()
     text = json.dumps(tree, separators=(",", ":")).encode()
     chunks = _chunk(_JSON, text, b" ") + (_chunk(_BIN, bytes(buffer.content), b"\0") if buffer.content else b"")
     return struct.pack("<4sII", b"glTF", 2, 12 + len(chunks)) + chunks
 
 
-def _meshes(
-    buffer: _Buffer, vertices: NDArray[np.float64], faces: NDArray[np.int64], colors: NDArray[np.uint8] | None
+def _mesh(
+    buffer: _Buffer,
+    vertices: NDArray[np.float64],
+    faces: NDArray[np.int64],
+    colors: NDArray[np.uint8] | None,
+    texture: Texture | None,
 ) -> dict[str, Any]:
-    """Put the arrays of a mesh into the buffer, and return the mesh and its material."""
+    """Put the arrays of a mesh into the buffer, and return the mesh."""
+    # A vertex on a seam of the texture occurs several times, with the one normal that it has.
+    rows = slice(None) if texture is None else texture.vertices
+    corners = faces if texture is None else texture.corners
     attributes = {
-        "POSITION": buffer.add((vertices @ GLTF_FROM_WORLD.T).astype(np.float32), bounds=True),
-        "NORMAL": buffer.add((vertex_normals(vertices, faces) @ GLTF_FROM_WORLD.T).astype(np.float32)),
+        "POSITION": buffer.add((vertices @ GLTF_FROM_WORLD.T).astype(np.float32)[rows], bounds=True),
+        "NORMAL": buffer.add((vertex_normals(vertices, faces) @ GLTF_FROM_WORLD.T).astype(np.float32)[rows]),
     }
     if colors is not None:
-        attributes["COLOR_0"] = buffer.add(_linear_16_bit(colors))
+        attributes["COLOR_0"] = buffer.add(_linear_16_bit(colors)[rows])
+    if texture is not None:
+        attributes["TEXCOORD_0"] = buffer.add(texture.places.astype(np.float32))
     # The largest number of its type is no index: it would restart the primitive.
-    narrow = len(vertices) <= np.iinfo(np.uint16).max
-    indices = buffer.add(faces.ravel().astype(np.uint16 if narrow else np.uint32), indices=True)
+    narrow = corners.max() < np.iinfo(np.uint16).max
+    indices = buffer.add(corners.ravel().astype(np.uint16 if narrow else np.uint32), indices=True)
     primitive = {"attributes": attributes, "indices": indices, "material": 0}
-    return {"meshes": [{"name": "mesh", "primitives": [primitive]}], "materials": [MATERIAL]}
+    return {"meshes": [{"name": "mesh", "primitives": [primitive]}]}
+
+
+def _textured_material(buffer: _Buffer, image: bytes) -> dict[str, Any]:
+    """Put an image into the buffer, and return a material that shows it."""
+    surface = dict(MATERIAL["pbrMetallicRoughness"], baseColorTexture={"index": 0})
+    return {
+        "images": [{"bufferView": buffer.append(image), "mimeType": "image/png", "name": "texture"}],
+        "textures": [{"source": 0}],
+        "materials": [{**MATERIAL, "pbrMetallicRoughness": surface}],
+    }
 
 
 def _scale_of(vertices: NDArray[np.float64]) -> float:
@@ -118,13 +143,9 @@ class _Buffer:
 
     def add(self, array: NDArray[Any], bounds: bool = False, indices: bool = False) -> int:
         """Append an array (n, c), or indices (n,), and return the number of its accessor."""
-        start = len(self.content)
-        self.content += array.astype(array.dtype.newbyteorder("<")).tobytes()
-        self.content += bytes(-len(self.content) % 4)
-        target = _ELEMENT_ARRAY_BUFFER if indices else _ARRAY_BUFFER
-        self.views.append({"buffer": 0, "byteOffset": start, "byteLength": array.nbytes, "target": target})
+        content = array.astype(array.dtype.newbyteorder("<")).tobytes()
         accessor = {
-            "bufferView": len(self.views) - 1,
+            "bufferView": self.append(content, _ELEMENT_ARRAY_BUFFER if indices else _ARRAY_BUFFER),
             "componentType": _COMPONENTS[array.dtype.name],
             "count": len(array),
             "type": "SCALAR" if array.ndim == 1 else f"VEC{array.shape[1]}",
@@ -135,6 +156,13 @@ class _Buffer:
             accessor["normalized"] = True
         self.accessors.append(accessor)
         return len(self.accessors) - 1
+
+    def append(self, content: bytes, target: int | None = None) -> int:
+        """Append bytes, and return the number of their view."""
+        view = {"buffer": 0, "byteOffset": len(self.content), "byteLength": len(content)}
+        self.views.append(view if target is None else {**view, "target": target})
+        self.content += content + bytes(-len(content) % 4)
+        return len(self.views) - 1
 
     def described(self) -> dict[str, Any]:
         """Return what the file says about it."""

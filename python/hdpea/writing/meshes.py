@@ -5,7 +5,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 from numpy.lib.recfunctions import repack_fields
@@ -13,17 +12,19 @@ from numpy.typing import ArrayLike, NDArray
 from plyfile import PlyData, PlyElement
 
 from hdpea.errors import UsageError
+from hdpea.geometry.texture import Texture
 from hdpea.runtime.outputs import check_output, replacing
 from hdpea.writing.attributes import colors_of, columns_of
+from hdpea.writing.content import MeshContent
 from hdpea.writing.glb import glb
 from hdpea.writing.marking import marked, save_arrays
+from hdpea.writing.obj import lines, obj, png, write_texture_files
 from hdpea.writing.placement import Placement, loses_digits, placement_file, write_placement
 
 Points = NDArray[np.float64]
 Faces = NDArray[np.int64]
 
-Columns = Mapping[str, NDArray[Any]]
-"""Attributes (v,) by name."""
+TEXTURED_FORMATS = (".obj", ".glb")
 
 
 def write_mesh(
@@ -32,13 +33,14 @@ def write_mesh(
     faces: ArrayLike,
     attributes: Mapping[str, ArrayLike] | None = None,
     crs: str | None = None,
+    texture: Texture | None = None,
 ) -> None:
     """Write a triangle mesh as OBJ, PLY, OFF, STL or GLB, by the extension of `path`.
 
     OBJ, PLY and OFF hold the vertices exactly. STL is binary, or text where single precision would
     move the vertices of a georeferenced mesh. GLB has y up, counts in metres, and is scaled if single precision could
     not hold its size; a georeferenced mesh is shifted there. Shift and `crs` are written beside the mesh, as
-    ``mesh.world.json``, if there are any, and into the extras of the GLB's node.
+    ``mesh.glb.world.json``, if there are any, and into the extras of the GLB's node.
 
     Parameters
     ----------
@@ -53,16 +55,21 @@ def write_mesh(
         STL none.
     crs
         The coordinate reference system of the vertices, as WKT or such as ``EPSG:25832``.
+    texture
+        For OBJ and GLB, which then have no vertex colours. That of ``mesh.obj`` is written beside it, as ``mesh.mtl``
+        and ``mesh.texture.png``.
 
     Raises
     ------
     UsageError
-        If the file cannot be written, or the arrays are no mesh.
+        If the file cannot be written, the arrays are no mesh, or the format holds no texture.
     """
     path = Path(path)
     check_output(path, MESH_FORMATS)
     extension = path.suffix.lower()
-    content, placement = mesh_content(extension, vertices, faces, attributes, crs)
+    content, placement = mesh_content(extension, vertices, faces, attributes, crs, texture, path.stem)
+    if texture is not None and extension == ".obj":
+        write_texture_files(path, texture)
     with replacing(path) as partial:
         partial.write_bytes(content)
     if placement.is_worth_a_file():
@@ -75,8 +82,12 @@ def mesh_content(
     faces: ArrayLike,
     attributes: Mapping[str, ArrayLike] | None = None,
     crs: str | None = None,
+    texture: Texture | None = None,
+    name: str = "mesh",
 ) -> tuple[bytes, Placement]:
     """Return what ``write_mesh`` writes, for an extension of ``MESH_FORMATS``, and where it stands in the world.
+
+    `name` is what a textured OBJ calls its material file by.
 
     Raises
     ------
@@ -86,7 +97,21 @@ def mesh_content(
     checked_vertices, checked_faces = _checked(vertices, faces)
     columns = columns_of(attributes or {}, len(checked_vertices))
     placement = Placement.of(checked_vertices, extension, crs)
-    return marked(MESH_FORMATS[extension](checked_vertices, checked_faces, columns, placement), extension), placement
+    check_textured(extension, texture is not None)
+    content = MeshContent(checked_vertices, checked_faces, columns, placement, texture, name)
+    return marked(MESH_FORMATS[extension](content), extension), placement
+
+
+def check_textured(extension: str, textured: bool) -> None:
+    """Make sure that a format holds a texture, if there is one.
+
+    Raises
+    ------
+    UsageError
+        If it does not.
+    """
+    if textured and extension not in TEXTURED_FORMATS:
+        raise UsageError(f"{extension[1:].upper()} holds no `texture`.", "Write OBJ or GLB.")
 
 
 def _checked(vertices: ArrayLike, faces: ArrayLike) -> tuple[Points, Faces]:
@@ -135,19 +160,9 @@ def point_ply(points: Points, normals: Points, others: Mapping[str, NDArray[np.f
     return marked(_ply(_records(table, ["x", "y", "z", "nx", "ny", "nz", *others])), ".ply", kind)
 
 
-def _obj(vertices: Points, faces: Faces, columns: Columns, _: Placement) -> bytes:
-    colors = colors_of(columns)
-    rows = vertices if colors is None else np.hstack([vertices, np.round(colors / 255.0, 4)])
-    return _lines(rows, "v ") + _lines(faces + 1, "f ")
-
-
-def _off(vertices: Points, faces: Faces, _: Columns, __: Placement) -> bytes:
-    return f"OFF\n{len(vertices)} {len(faces)} 0\n".encode() + _lines(vertices) + _lines(faces, "3 ")
-
-
-def _lines(rows: Points | Faces, prefix: str = "") -> bytes:
-    # repr is the shortest text that reads back as the same number.
-    return "".join(f"{prefix}{' '.join(map(repr, row))}\n" for row in rows.tolist()).encode()
+def _off(mesh: MeshContent) -> bytes:
+    head = f"OFF\n{len(mesh.vertices)} {len(mesh.faces)} 0\n".encode()
+    return head + lines(mesh.vertices) + lines(mesh.faces, "3 ")
 
 
 def _ply(vertex: NDArray[np.void], faces: Faces | None = None) -> bytes:
@@ -166,31 +181,34 @@ def _records(table: Points, names: list[str]) -> NDArray[np.void]:
     return np.ascontiguousarray(table, "<f8").view([(name, "<f8") for name in names])[:, 0]
 
 
-def _mesh_ply(vertices: Points, faces: Faces, columns: Columns, _: Placement) -> bytes:
-    others = [(name, column.dtype) for name, column in columns.items()]
-    table = np.empty(len(vertices), [*((axis, np.dtype("<f8")) for axis in "xyz"), *others])
-    table["x"], table["y"], table["z"] = vertices.T
-    for name, column in columns.items():
+def _mesh_ply(mesh: MeshContent) -> bytes:
+    others = [(name, column.dtype) for name, column in mesh.columns.items()]
+    table = np.empty(len(mesh.vertices), [*((axis, np.dtype("<f8")) for axis in "xyz"), *others])
+    table["x"], table["y"], table["z"] = mesh.vertices.T
+    for name, column in mesh.columns.items():
         table[name] = column
-    return _ply(table, faces)
+    return _ply(table, mesh.faces)
 
 
-def _stl(vertices: Points, faces: Faces, _: Columns, __: Placement) -> bytes:
+def _stl(content: MeshContent) -> bytes:
     import trimesh  # takes a second, which the other formats need not wait for
 
-    mesh = trimesh.Trimesh(vertices, faces, process=False)
-    if loses_digits(vertices):
+    mesh = trimesh.Trimesh(content.vertices, content.faces, process=False)
+    if loses_digits(content.vertices):
         return trimesh.exchange.stl.export_stl_ascii(mesh).encode()
     with np.errstate(all="ignore"):
         return trimesh.exchange.stl.export_stl(mesh)
 
 
-def _glb(vertices: Points, faces: Faces, columns: Columns, placement: Placement) -> bytes:
-    return glb(vertices - placement.shift, faces, colors_of(columns), placement.as_dict())
+def _glb(mesh: MeshContent) -> bytes:
+    vertices, told = mesh.vertices - mesh.placement.shift, mesh.placement.as_dict()
+    if mesh.texture is None:
+        return glb(vertices, mesh.faces, colors_of(mesh.columns), extras=told)
+    return glb(vertices, mesh.faces, texture=mesh.texture, image=png(mesh.texture), extras=told)
 
 
-MESH_FORMATS: dict[str, Callable[[Points, Faces, Columns, Placement], bytes]] = {
-    ".obj": _obj,
+MESH_FORMATS: dict[str, Callable[[MeshContent], bytes]] = {
+    ".obj": obj,
     ".ply": _mesh_ply,
     ".off": _off,
     ".stl": _stl,

@@ -89,7 +89,7 @@ def loses_digits(vertices: NDArray[np.float64]) -> bool:
 
 def placement_file(mesh: Path) -> Path:
     """Return the name of the file beside a mesh that says where it lies."""
-    return mesh.with_name(f"{mesh.stem}.world.json")
+    return mesh.with_name(f"{mesh.name}.world.json")
 
 
 def write_placement(path: Path, placement: Placement) -> None:

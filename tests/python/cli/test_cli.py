@@ -369,5 +369,23 @@ def test_attributes_arrive_in_the_mesh_and_classes_take_a_part(tmp_path: Path) -
 
 
 def test_the_file_that_says_where_a_mesh_lies_takes_no_others_place(scan: str, tmp_path: Path) -> None:
-    beside = str(tmp_path / "mesh.world.json")
+    beside = str(tmp_path / "mesh.glb.world.json")
     assert run(["reconstruct", scan, str(tmp_path / "mesh.glb"), "--report", beside]) == 2
+
+
+def test_a_georeferenced_mesh_replaces_its_own_files(tmp_path: Path) -> None:
+    np.savetxt(tmp_path / "scan.xyz", sphere_points(800) + np.array([456_789.25, 5_678_901.5, 123.0]))
+    for _ in range(2):
+        assert run(["reconstruct", str(tmp_path / "scan.xyz"), str(tmp_path / "mesh.glb"), "--quiet"]) == 0
+    assert json.loads((tmp_path / "mesh.glb.world.json").read_text())["shift"][1] == pytest.approx(5_678_901.5, abs=10)
+
+
+def test_a_texture_wants_a_format_that_holds_it_and_names_for_its_files(
+    scan: str, tmp_path: Path, capsys: Capture
+) -> None:
+    assert run(["reconstruct", scan, str(tmp_path / "mesh.ply"), "--texture", "256"]) == 2
+    assert "PLY holds no --texture" in capsys.readouterr().err
+    assert run(["reconstruct", scan, "-", "--format", "obj", "--texture", "256"]) == 2
+    picture = str(tmp_path / "mesh.texture.png")
+    assert run(["reconstruct", scan, str(tmp_path / "mesh.obj"), "--texture", "256", "--picture", picture]) == 2
+    assert "same output" in capsys.readouterr().err

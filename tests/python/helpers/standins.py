@@ -34,6 +34,7 @@ class Reconstruction:
     report: Report
     attributes: Mapping[str, NDArray[Any]] = field(default_factory=dict)
     crs: str | None = None
+    texture: None = None
 
 
 @dataclass

@@ -1,0 +1,72 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""From a scan of terrain to its mesh, and to a grid of heights that QGIS and GDAL open.
+
+    python examples/terrain_grid.py tile.ply terrain.asc --cell 0.5 --classes 2
+
+The grid is an ESRI ASCII grid; beside it lies the mesh, terrain.ply.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+import numpy as np
+from numpy.typing import NDArray
+
+import hdpea
+
+UNKNOWN = -9999.0
+
+
+def heights_of(
+    vertices: NDArray[np.float64],
+    faces: NDArray[np.int64],
+    low: NDArray[np.float64],
+    shape: tuple[int, int],
+    cell: float,
+) -> NDArray[np.float64]:
+    """Return the height (rows, columns) of a mesh at the centres of cells from the corner `low` (2,) on, NaN outside.
+
+    The highest counts, where there are several.
+    """
+    grid = np.full(shape, np.nan)
+    centred = (vertices[:, :2] - low) / cell - 0.5  # in cells, so that the centres are whole numbers
+    for corners in faces:
+        (x, y), z = centred[corners].T, vertices[corners, 2]
+        columns = np.arange(max(np.ceil(x.min()), 0), min(np.floor(x.max()), shape[1] - 1) + 1).astype(int)
+        rows = np.arange(max(np.ceil(y.min()), 0), min(np.floor(y.max()), shape[0] - 1) + 1).astype(int)
+        area = (x[1] - x[0]) * (y[2] - y[0]) - (x[2] - x[0]) * (y[1] - y[0])
+        if not (len(columns) and len(rows) and area):
+            continue
+        u, v = np.meshgrid(columns - x[0], rows - y[0])
+        second = (u * (y[2] - y[0]) - v * (x[2] - x[0])) / area
+        third = (v * (x[1] - x[0]) - u * (y[1] - y[0])) / area
+        inside = (second >= 0) & (third >= 0) & (second + third <= 1)
+        height = np.where(inside, z[0] + second * (z[1] - z[0]) + third * (z[2] - z[0]), np.nan)
+        block = np.ix_(rows, columns)
+        grid[block] = np.fmax(grid[block], height)
+    return grid
+
+
+@click.command()
+@click.argument("scan", type=click.Path(path_type=Path))
+@click.argument("out", type=click.Path(path_type=Path))
+@click.option("--cell", default=1.0, show_default=True, help="size of a cell, in the units of the scan")
+@click.option("--classes", help="take only the points of these classes: 2 is ground")
+def main(scan: Path, out: Path, cell: float, classes: str | None) -> None:
+    """Write the heights of the terrain in SCAN to OUT."""
+    mesh = hdpea.reconstruct(hdpea.read(scan), classes=classes)
+    mesh.write(out.with_suffix(".ply"))
+    low, high = mesh.vertices[:, :2].min(axis=0), mesh.vertices[:, :2].max(axis=0)
+    columns, rows = np.ceil((high - low) / cell).astype(int)
+    grid = np.nan_to_num(heights_of(mesh.vertices, mesh.faces, low, (rows, columns), cell), nan=UNKNOWN)
+    corner = f"xllcorner {low[0]}\nyllcorner {low[1]}"
+    head = f"ncols {columns}\nnrows {rows}\n{corner}\ncellsize {cell}\nnodata_value {UNKNOWN}"
+    # From north to south.
+    np.savetxt(out, grid[::-1], fmt="%.4f", header=head, comments="")
+    print(f"{len(mesh.faces)} faces -> {rows} x {columns} cells, {np.mean(grid != UNKNOWN):.0%} of them known")
+
+
+if __name__ == "__main__":
+    main()
