@@ -19,7 +19,7 @@ UNKNOWN = frozenset({"", "na", "n/a", "null", "none", "-", "nan"})
 
 @dataclass(frozen=True)
 class Columns:
-    """The columns of numbers (n, c) of a table, which of its `width` columns they are, and the count of empty fields."""
+    """Columns of numbers (n, c) of a table, which of its `width` columns they are, and how many fields are empty."""
 
     table: NDArray[np.float64]
     places: list[int]
@@ -71,7 +71,7 @@ def parse_columns(lines: Sequence[str], separator: str, first_line: int) -> Colu
         Naming the first line that has more or fewer fields, or a word among numbers.
     """
     read = csv.reader(lines, delimiter=separator) if separator else map(str.split, lines)
-    rows = [(number, [each.strip().strip("\"'") for each in row]) for number, row in enumerate(read, first_line) if row]
+    rows = [(number, [each.strip(" \"'") for each in row]) for number, row in enumerate(read, first_line) if row]
     rows = [(number, row) for number, row in rows if any(row)]
     width = len(rows[0][1])
     for number, row in rows:
@@ -81,14 +81,19 @@ def parse_columns(lines: Sequence[str], separator: str, first_line: int) -> Colu
     for place in range(width):
         fields = [row[place] for _, row in rows]
         known = next((each for each in fields if each.lower() not in UNKNOWN), "")
-        if is_number(known):
+        if not is_number(known):
+            continue
+        try:
+            column = np.array(fields, np.float64)
+        except ValueError:
             filled = ["nan" if each.lower() in UNKNOWN else each for each in fields]
             unknown += sum(each == "" for each in fields)
             bad = next((i for i, each in enumerate(filled) if not is_number(each)), None)
             if bad is not None:
-                raise _bad_line(*rows[bad], separator, f"field {place + 1} should be a number")
-            found.append(np.array(filled, np.float64))
-            places.append(place)
+                raise _bad_line(*rows[bad], separator, f"field {place + 1} should be a number") from None
+            column = np.array(filled, np.float64)
+        found.append(column)
+        places.append(place)
     if len(found) < 3:
         raise UnreadableInput(f"it has {len(found)} numbers per line, where x, y and z are needed.")
     return Columns(np.stack(found, axis=1), places, width, unknown)

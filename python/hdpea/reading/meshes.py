@@ -17,6 +17,8 @@ from hdpea.reading.tables import columns_by_name, look_like_normals, name_column
 _COLORS = ["red", "green", "blue"]
 _AXES, _NORMALS = ["x", "y", "z"], ["nx", "ny", "nz"]
 _CORNER = re.compile(r"(?<=\s)(\d+)/\d*/(\d+)")
+_OTHER_NORMAL = re.compile(r"(?<=\s)(\d+)/\d*/(?!\1(?!\d))\d")
+"""A corner whose normal has another number than its vertex."""
 
 
 def parse_obj(data: bytes) -> PointCloud:
@@ -55,10 +57,13 @@ def _normals_of_vertices(text: str, normals: NDArray[np.float64], count: int) ->
     """Return the normals (count, 3) of the vertices, the mean of those that faces give them; None if unknown."""
     if not len(normals) or normals.shape[1] != 3:
         return None
-    corners = np.array(_CORNER.findall("\n".join(_after_keyword(text, "f", " "))), np.int64).reshape(-1, 2) - 1
+    faces = "\n".join(_after_keyword(text, "f", " "))
+    if len(normals) == count and not _OTHER_NORMAL.search(faces):
+        # Also without faces, or with corners that are counted from the end.
+        return normals
+    corners = np.array(_CORNER.findall(faces), np.int64).reshape(-1, 2) - 1
     if not len(corners):
-        # Without faces, or with corners counted from the end, which are in the same order in all programs known.
-        return normals if len(normals) == count else None
+        return None
     if corners.min() < 0 or corners[:, 0].max() >= count or corners[:, 1].max() >= len(normals):
         raise UnreadableInput("a face has a corner that is not there.", "It may have been cut off while being copied.")
     corners = np.unique(corners, axis=0)

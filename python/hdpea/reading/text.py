@@ -48,7 +48,9 @@ def parse_text(data: bytes, normals_expected: bool = False) -> PointCloud:
     UnreadableInput
         If a line is not like the others, no column is x, y or z, or the header does not fit the rows.
     """
-    text = _NOT_A_NUMBER.sub("nan", decoded(data))
+    text = decoded(data)
+    if "(" in text or "#" in text:
+        text = _NOT_A_NUMBER.sub("nan", text)
     start = _find_numbers(text)
     body = text[start.offset :]
     announced = 0
