@@ -37,7 +37,7 @@ Examples:
   hdpea reconstruct scan.xyz mesh.glb --faces 20000 --picture mesh.png
   hdpea reconstruct a.ply b.laz c.e57 --out-dir meshes/ --json > made.jsonl
   hdpea reconstruct front.ply back.ply mesh.ply --merge
-  zcat scan.xyz.gz | hdpea reconstruct - - --format stl > mesh.stl
+  ssh there cat scan.laz | hdpea reconstruct - - --format stl > mesh.stl
 
 \b
 Exit codes: 0 ok, 1 internal error, 2 usage, 3 unreadable input,
@@ -97,9 +97,10 @@ def command(
 ) -> None:
     """Make a compact anisotropic triangle mesh of the point cloud IN.
 
-    IN is PLY, text (XYZ, CSV, PTS, PWN), OBJ, OFF, NPY or NPZ; - reads standard input. Normals are
-    used if there are any. OUT is OBJ, PLY, STL, OFF or GLB, by its extension; - is standard output.
-    Without OUT the mesh is IN.mesh.ply, beside IN.
+    IN is PLY, text (XYZ, CSV, PTS, PWN), LAS, LAZ, E57, PCD, PTX, OBJ, OFF, NPY or NPZ, gzipped or
+    not; - reads standard input. Normals and sensors are used if there are any. OUT is OBJ, PLY, STL,
+    OFF or GLB, by its extension; - is standard output. Without OUT the mesh is IN.mesh.ply, beside
+    IN.
 
     No IN is ever overwritten, nor is a scan in the place of OUT.
 

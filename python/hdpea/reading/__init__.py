@@ -3,66 +3,17 @@
 
 from __future__ import annotations
 
-import re
-import struct
 import sys
-import zlib
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from difflib import get_close_matches
 from pathlib import Path, PurePath
-from tokenize import TokenError
-from zipfile import BadZipFile
-
-from plyfile import PlyParseError
 
 from hdpea.errors import UnreadableInput
-from hdpea.reading.arrays import parse_npy, parse_npz
 from hdpea.reading.cloud import PointCloud, cleaned, require_points
+from hdpea.reading.formats import CLOUD_FORMATS, DAMAGE, parse_points
 from hdpea.reading.merging import merged
-from hdpea.reading.meshes import parse_obj, parse_off
-from hdpea.reading.ply import parse_ply
-from hdpea.reading.text import parse_text
 
 __all__ = ["CLOUD_FORMATS", "DAMAGE", "PointCloud", "parse_points", "read", "read_bytes", "read_points", "read_scans"]
-
-CLOUD_FORMATS = (
-    ".ply", ".xyz", ".xyzn", ".txt", ".csv", ".asc", ".pts", ".pwn", ".obj", ".off", ".npy", ".npz"
-)  # fmt: skip
-"""Extensions by which clouds are found in a folder; what a file holds is told by its content."""
-
-_FORMATS: list[tuple[re.Pattern[bytes], Callable[[bytes], PointCloud]]] = [
-    (re.compile(rb"ply\s"), parse_ply),
-    (re.compile(rb"\x93NUMPY"), parse_npy),
-    (re.compile(rb"PK\x03\x04"), parse_npz),
-    # Possessive, since a file of nothing but blank lines has as many ways to match as it has lines.
-    (re.compile(rb"(?:\s+|#[^\n]*\n)*+(ST)?C?N?OFF\b"), parse_off),
-    (re.compile(rb"(?:\s+|#[^\n]*\n|(?:o|g|s|mtllib|usemtl)\s[^\n]*\n)*+v[nt]?\s"), parse_obj),
-]
-# What the libraries that read those formats raise over nonsense.
-DAMAGE = (
-    PlyParseError,
-    ValueError,
-    LookupError,
-    TypeError,
-    ArithmeticError,
-    OSError,
-    EOFError,
-    SyntaxError,
-    TokenError,
-    BadZipFile,
-    RuntimeError,
-    struct.error,
-    zlib.error,
-)
-_FOREIGN = {
-    b"LASF": "LAS/LAZ",
-    b"ASTM-E57": "E57",
-    b"# .PCD": "PCD",
-    b"glTF": "glTF",
-    b"\x1f\x8b": "gzip",
-    b"solid": "STL",
-}
-_READABLE = "hdpea reads PLY, XYZ/TXT/CSV/PTS/PWN text, OBJ, OFF, NPY and NPZ; convert the file to one of these."
 
 
 def read_points(path: str | PurePath) -> PointCloud:
@@ -100,7 +51,7 @@ def _read(path: str | PurePath) -> PointCloud:
     name = "standard input" if str(path) == "-" else str(path)
     data = _standard_input() if str(path) == "-" else read_bytes(Path(path))
     try:
-        cloud = parse_points(data, Path(path).suffix.lower())
+        cloud = parse_points(data, Path(str(path).lower().removesuffix(".gz")).suffix)
         require_points(cloud)
     except UnreadableInput as error:
         raise UnreadableInput(f"Cannot read {name}: {error.message}", error.hint) from error
@@ -146,28 +97,3 @@ def _nearest_name(path: Path) -> Path | None:
     except OSError:
         return None
     return next((path.parent / near for near in get_close_matches(path.name, names, 1, cutoff=0.75)), None)
-
-
-def parse_points(data: bytes, extension: str = "") -> PointCloud:
-    """Read the content of a file, as ``read_points`` does, without dropping anything.
-
-    Raises
-    ------
-    UnreadableInput
-        If the content is damaged, of an unknown format, or empty.
-    """
-    if not data or data.isspace():
-        raise UnreadableInput("it is empty.", _READABLE)
-    for magic, parse in _FORMATS:
-        if magic.match(data):
-            try:
-                return parse(data)
-            except DAMAGE as error:
-                hint = "It may have been cut off while being copied."
-                raise UnreadableInput(f"it is damaged ({error}).", hint) from error
-    for prefix, foreign in _FOREIGN.items():
-        if data.startswith(prefix):
-            raise UnreadableInput(f"it is a {foreign} file.", _READABLE)
-    if b"\0" in data[:4096]:
-        raise UnreadableInput("its format is unknown.", _READABLE)
-    return parse_text(data, normals_expected=extension in {".pwn", ".xyzn"})

@@ -21,7 +21,8 @@ MOST_COLUMNS = 64
 MOST_UNPACKED, ALWAYS_UNPACKED = 100, 1 << 28
 """How many times its size an archive may unpack to, and the bytes that any may."""
 
-_POINT_KEYS = ("points", "xyz", "pos", "vertices", "arr_0")
+_POINT_KEYS = ("points", "xyz", "pos", "positions", "coord", "coords", "vertices", "arr_0")
+_NORMAL_KEYS = ("normals", "normal")
 _HINT = "Save an array of shape (n, 3), or an NPZ of `points` and, if known, `normals`."
 
 
@@ -35,8 +36,12 @@ def parse_npy(data: bytes) -> PointCloud:
     """
     array = _load(data)
     if array.dtype.names is not None:
-        return from_columns({name: array[name] for name in array.dtype.names}, "NPY, structured")
+        return from_columns(_fields(array), "NPY, structured")
     return from_columns(name_columns(_as_rows(array, "the array")), f"NPY, {array.shape[1]} columns")
+
+
+def _fields(array: NDArray[Any]) -> dict[str, NDArray[Any]]:
+    return {name: array[name].ravel() for name in array.dtype.names or ()}
 
 
 def parse_npz(data: bytes) -> PointCloud:
@@ -54,14 +59,20 @@ def parse_npz(data: bytes) -> PointCloud:
         if key is None:
             raise UnreadableInput(f"it has no array named points (found: {', '.join(members) or 'none'}).", _HINT)
         shapes = {name: _header(archive.open(member)) for name, member in members.items()}
-        _require_rows(*shapes[key], key)
+        shape, dtype = shapes[key]
+        if dtype.names is None:
+            _require_rows(shape, dtype, key)
         arrays = {
             name: _load(archive.read(members[name]))
-            for name, (shape, _) in shapes.items()
-            if shape[:1] == shapes[key][0][:1]
+            for name, (other, kind) in shapes.items()
+            if other[:1] == shape[:1] and not kind.hasobject
         }
-    cloud = from_columns(name_columns(_as_rows(arrays.pop(key), key)), f"NPZ, array {key!r}")
-    normals = arrays.pop("normals", None)
+    if key not in arrays:
+        raise UnreadableInput(f"{key} is an array of {dtype}, which is not read.", _HINT)
+    points = arrays.pop(key)
+    columns = name_columns(_as_rows(points, key)) if dtype.names is None else _fields(points)
+    cloud = from_columns(columns, f"NPZ, array {key!r}")
+    normals = next((arrays.pop(name) for name in _NORMAL_KEYS if name in arrays), None)
     if normals is not None:
         normals = _as_rows(normals, "normals")[:, :3]
     return PointCloud(

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The point cloud as it comes out of a file, and what is dropped; the formats are listed in ``hdpea.reading``."""
+"""The point cloud as it comes out of a file, and what is dropped; formats are listed in ``hdpea.reading.formats``."""
 
 from __future__ import annotations
 
@@ -11,11 +11,12 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from hdpea.errors import UnreadableInput, UsageError
+from hdpea.reading.names import DEGREES, NORMAL_NAMES, coordinates_among, plain_name
 from hdpea.reading.objects import Parts, PointsLike, as_array, parts_of
 
-NORMAL_NAMES = (("nx", "ny", "nz"), ("normal_x", "normal_y", "normal_z"), ("normalx", "normaly", "normalz"))
-
 SENSOR_NAMES = ("sensor_x", "sensor_y", "sensor_z")
+
+_PROJECT = "Project them to lengths: gdaltransform -s_srs EPSG:4326 -t_srs EPSG:32632 < in.txt > out.txt, in your zone."
 
 MESH_NOTE = "The file is a mesh; its vertices are taken as points, its faces are not used."
 
@@ -94,25 +95,29 @@ def from_columns(columns: Mapping[str, NDArray[Any]], format: str, notes: Iterab
     Raises
     ------
     UnreadableInput
-        If there is no x, y or z.
+        If there is no x, y or z, or they are degrees.
     """
-    lowered = {name.lower(): name for name in columns}
+    others = dict(columns)
+    by_plain_name: dict[str, str] = {}
+    for name in columns:
+        by_plain_name.setdefault(plain_name(name), name)
 
     def take(names: tuple[str, ...]) -> NDArray[np.float64] | None:
-        if not all(name in lowered for name in names):
+        if len(names) < 3 or not all(name in by_plain_name for name in names):
             return None
-        taken = [columns[lowered.pop(name)] for name in names]
+        taken = [others.pop(by_plain_name[name]) for name in names]
         if any(column.ndim != 1 or column.dtype.kind not in "fiu" for column in taken):
             raise UnreadableInput(f"its {', '.join(names)} are not columns of numbers.", "Save one number in each.")
         return np.stack([column.astype(np.float64) for column in taken], axis=1)
 
-    points = take(("x", "y", "z"))
+    points = take(coordinates_among(by_plain_name))
     if points is None:
+        if len(DEGREES & set(by_plain_name)) > 1:
+            raise UnreadableInput("its coordinates are degrees of longitude and latitude.", _PROJECT)
         found = ", ".join(columns) or "none"
         raise UnreadableInput(f"there are no columns x, y and z (found: {found}).", "Rename the columns.")
     normals = next((taken for names in NORMAL_NAMES if (taken := take(names)) is not None), None)
-    attributes = {name: columns[name] for name in lowered.values()}
-    return PointCloud(points, normals, attributes, format, tuple(notes))
+    return PointCloud(points, normals, others, format, tuple(notes))
 
 
 def from_arrays(

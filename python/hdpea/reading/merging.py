@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from hdpea.errors import UnreadableInput
 from hdpea.reading.cloud import SENSOR_NAMES, PointCloud
 
 
@@ -16,8 +17,17 @@ def merged(clouds: Sequence[PointCloud]) -> PointCloud:
     """Return the points of all clouds, which have one frame and unit, in their order.
 
     Points of a cloud without normals get zeros, which are none. Attributes, and sensors, are kept where every cloud
-    has them, the coordinate reference system where all have the same; the notes say which attributes are not.
+    has them; the notes say which are not.
+
+    Raises
+    ------
+    UnreadableInput
+        If they say that they are in different coordinate reference systems.
     """
+    systems = list(dict.fromkeys(cloud.crs for cloud in clouds if cloud.crs is not None))
+    if len(systems) > 1:
+        told = " and ".join(system[:40] for system in systems)
+        raise UnreadableInput(f"The scans are in different coordinate reference systems: {told}.", "Project them.")
     normals = None
     if any(cloud.normals is not None for cloud in clouds):
         normals = np.vstack([np.zeros_like(each.points) if each.normals is None else each.normals for each in clouds])
@@ -33,7 +43,7 @@ def merged(clouds: Sequence[PointCloud]) -> PointCloud:
         {name: np.concatenate([each[name] for each in attributes]) for name in common},
         ", ".join(dict.fromkeys(cloud.format for cloud in clouds)),
         tuple(dict.fromkeys(notes)),
-        crs=clouds[0].crs if len({cloud.crs for cloud in clouds}) == 1 else None,
+        crs=systems[0] if systems else None,
     )
 
 

@@ -15,10 +15,15 @@ from plyfile import PlyData, PlyListProperty, PlyProperty
 
 from hdpea.errors import UnreadableInput
 from hdpea.reading.cloud import MESH_NOTE, PointCloud, from_columns
+from hdpea.reading.ply_dialects import meaning_of
 from hdpea.reading.tables import columns_by_name, parse_table
 
 _FORMAT_NAMES = {"<": "binary little-endian PLY", ">": "binary big-endian PLY", "=": "text PLY"}
 _ELEMENT = re.compile(rb"^element[ \t]+(\S+)[ \t]+(\d+)", re.MULTILINE)
+_COMMENT = re.compile(rb"^(?:comment|obj_info)\b[^\r\n]*(?:\r\n|\n|\r)", re.MULTILINE)
+_POINTS = re.compile(rb"^(element[ \t]+)(?:vertices|points?)(?=[ \t])", re.MULTILINE | re.IGNORECASE)
+_NAME = re.compile(rb"^(property[ \t]+(?:list[ \t]+\S+[ \t]+)?\S+[ \t]+)(\S[^\r\n]*)", re.MULTILINE)
+_BEFORE_END = re.compile(rb"(?=^element[ \t])", re.MULTILINE)
 _END_OF_HEADER = re.compile(rb"^end_header[ \t]*(\r\n|\n|\r)", re.MULTILINE)
 
 
@@ -34,18 +39,39 @@ def parse_ply(data: bytes) -> PointCloud:
     """
     end = _END_OF_HEADER.search(data)
     body_start = end.end() if end else len(data)
-    head = data[:body_start]
+    first_line = data.count(b"\n", 0, body_start) + 1
+    head = _plain_header(data[:body_start])
     # The library reads the header only: over a body of text, or over a stream, it walks value by value.
     header = PlyData.read(io.BytesIO(_ELEMENT.sub(rb"element \1 0", head)))
     counts = {name.decode(): int(count) for name, count in _ELEMENT.findall(head)}
     if not counts.get("vertex"):
         raise UnreadableInput("there are no points in it.", "PLY points are elements named 'vertex'.")
     if _is_plain(header):
-        columns = _read_plain(header, data, body_start, counts["vertex"])
+        columns = _read_plain(header, data, body_start, counts["vertex"], first_line)
+        elements: Mapping[str, Mapping[str, NDArray[Any]]] = {"vertex": columns}
     else:
         _require_room(header, counts, len(data) - body_start)
-        columns = _read_any(data)
-    return from_columns(columns, _FORMAT_NAMES[header.byte_order], [MESH_NOTE] if counts.get("face") else [])
+        elements = _read_any(head + data[body_start:])
+    notes = [MESH_NOTE] if counts.get("face") else []
+    return from_columns(meaning_of(elements, notes), _FORMAT_NAMES[header.byte_order], notes)
+
+
+def _plain_header(head: bytes) -> bytes:
+    """Return a header of nothing but ASCII, without comments, with names that occur once in each element."""
+    plain = _POINTS.sub(rb"\1vertex", _COMMENT.sub(b"", head))
+    elements = []
+    for element in _BEFORE_END.split(plain):
+        taken: set[bytes] = set()
+
+        def unique(found: re.Match[bytes], taken: set[bytes] = taken) -> bytes:
+            name = re.sub(rb"[^!-~]", b"_", found[2].rstrip())
+            while name in taken:
+                name += b"_"
+            taken.add(name)
+            return found[1] + name
+
+        elements.append(_NAME.sub(unique, element))
+    return re.sub(rb"[\x80-\xff]", b"_", b"".join(elements))
 
 
 def _require_room(header: PlyData, counts: Mapping[str, int], room: int) -> None:
@@ -73,11 +99,13 @@ def _is_plain(header: PlyData) -> bool:
     )
 
 
-def _read_plain(header: PlyData, data: bytes, body_start: int, count: int) -> Mapping[str, NDArray[Any]]:
+def _read_plain(
+    header: PlyData, data: bytes, body_start: int, count: int, first_line: int
+) -> Mapping[str, NDArray[Any]]:
     vertex = header["vertex"]
     if header.text:
-        lines = data[body_start:].decode().splitlines()[:count]
-        table = parse_table(lines, data[:body_start].count(b"\n") + 1, len(vertex.properties))
+        lines = data[body_start:].decode(errors="replace").splitlines()
+        table = parse_table(_rows_of(lines, count), first_line, len(vertex.properties))
         # Doubles, even where the header says float: the text may hold more digits than that.
         columns: Mapping[str, NDArray[Any]] = columns_by_name([each.name for each in vertex.properties], table)
         found = len(table)
@@ -92,11 +120,19 @@ def _read_plain(header: PlyData, data: bytes, body_start: int, count: int) -> Ma
     return columns
 
 
-def _read_any(data: bytes) -> dict[str, NDArray[Any]]:
+def _rows_of(lines: list[str], count: int) -> list[str]:
+    """Return the lines up to the `count`-th that is not blank."""
+    if all(map(str.strip, lines[:count])):
+        return lines[:count]
+    filled = [i for i, line in enumerate(lines) if line.strip()]
+    return lines[: filled[count - 1] + 1] if len(filled) >= count else lines
+
+
+def _read_any(data: bytes) -> dict[str, dict[str, NDArray[Any]]]:
     with warnings.catch_warnings():
         # The library stumbles over lists of length 0, without harm.
         warnings.simplefilter("ignore")
-        return _by_name(PlyData.read(io.BytesIO(data))["vertex"].data)
+        return {each.name: _by_name(each.data) for each in PlyData.read(io.BytesIO(data)).elements}
 
 
 def _by_name(table: NDArray[np.void]) -> dict[str, NDArray[Any]]:

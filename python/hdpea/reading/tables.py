@@ -88,7 +88,7 @@ def name_columns(table: NDArray[np.float64], normals_expected: bool = False) -> 
         raise UnreadableInput(f"it has {width} numbers per line, where x, y and z are needed.")
     names = ["x", "y", "z", *(f"column_{i + 1}" for i in range(3, width))]
     for start in sorted({3, max(3, width - 3)}) if width >= 6 and len(table) else ():
-        if normals_expected or _look_like_normals(table[:, start : start + 3]):
+        if normals_expected or look_like_normals(table[:, start : start + 3]):
             names[start : start + 3] = ["nx", "ny", "nz"]
             break
     return columns_by_name(names, table)
@@ -99,7 +99,8 @@ def columns_by_name(names: Iterable[str], table: NDArray[np.float64]) -> dict[st
     return dict(zip(names, table.T, strict=True))
 
 
-def _look_like_normals(columns: NDArray[np.float64]) -> bool:
+def look_like_normals(columns: NDArray[np.float64]) -> bool:
+    """Say whether nearly all of the rows (n, 3) are of length 1 or 0."""
     with np.errstate(invalid="ignore", over="ignore"):
         lengths = np.linalg.norm(columns, axis=1)
     unusable = ~np.isfinite(lengths) | (lengths == 0)

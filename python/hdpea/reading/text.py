@@ -3,60 +3,130 @@
 
 from __future__ import annotations
 
+import codecs
 import re
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from hdpea.errors import UnreadableInput
 from hdpea.reading.cloud import PointCloud, from_columns
-from hdpea.reading.tables import columns_by_name, comma_is_decimal, is_number, name_columns, parse_table
+from hdpea.reading.columns import Columns, parse_columns
+from hdpea.reading.names import coordinates_among, plain_name
+from hdpea.reading.tables import comma_is_decimal, is_number, name_columns, parse_table
 
 _COMMENT = re.compile(r"(#|//|%)[^\n]*")
 _UNREAD = re.compile(r"(?:\s+|(?:#|//|%)[^\n]*(?:\n|$))++")
 """Blank lines and comments; possessive, since there may be millions."""
 _NAMES = re.compile(r"^(?:#|//|%)[^\n]*\bx\b[^\n]*", re.MULTILINE | re.IGNORECASE)
+_NOT_A_NUMBER = re.compile(r"[-+]?(?:nan\(\w*\)|1\.#(?:IND|QNAN|SNAN)\d*)", re.IGNORECASE)
+"""What Windows writes for NaN."""
+_COUNT = re.compile(r"^[ \t]*\d+[ \t\r]*$", re.MULTILINE)
+UTF16 = (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)
+"""What a text in UTF-16 begins with, as PowerShell writes it."""
 MOST_HEADER_LINES = 1_000
 """Lines before the first point, comments and blank ones aside, after which a text is no table."""
 _SEPARATORS = str.maketrans(",;\t", "   ")
+_PTS = {4: ["intensity"], 6: ["red", "green", "blue"], 7: ["intensity", "red", "green", "blue"]}
+"""What follows x, y and z in a PTS file of so many columns."""
+
+
+def decoded(data: bytes) -> str:
+    """Return a text in UTF-8, or in UTF-16 where it says so; what is neither becomes question marks."""
+    if data.startswith(UTF16):
+        return data.decode("utf-16", errors="replace")
+    return data.decode("utf-8-sig", errors="replace")
 
 
 def parse_text(data: bytes, normals_expected: bool = False) -> PointCloud:
-    """Read a table of points, one a line, with or without a header, comments and a leading count.
+    """Read a table of points, one a line, with or without a header, comments and counts of points.
 
-    Separators are blanks, commas, semicolons and tabs. Columns go by the header's names where it
-    names them all, else by ``name_columns``.
+    Separators are blanks, commas, semicolons and tabs; empty fields are unknown numbers, and columns of words are left
+    out. Columns go by the header's names where it names x, y and z, else by ``name_columns``; a first column that
+    numbers the rows is no coordinate then.
 
     Raises
     ------
     UnreadableInput
-        If a line is not as many numbers as the others, or no column is x, y or z.
+        If a line is not like the others, no column is x, y or z, or the header does not fit the rows.
     """
-    text = data.decode("utf-8-sig", errors="replace")
+    text = decoded(data)
+    if "(" in text or "#" in text:
+        text = _NOT_A_NUMBER.sub("nan", text)
     start = _find_numbers(text)
     body = text[start.offset :]
+    announced = 0
+    if start.counted is not None:
+        announced = start.counted + sum(map(int, _COUNT.findall(body)))
+        body = _COUNT.sub("", body)
     if _COMMENT.search(body):
         body = _COMMENT.sub("", body)
-    if comma_is_decimal(start.line):
+    if start.separator in {";", "\t"} or comma_is_decimal(start.line):
         body = body.replace(",", ".")
-    table = parse_table(body.translate(_SEPARATORS).splitlines(), start.line_number)
-    width = table.shape[1]
-    named = len(start.header) == width
-    columns = columns_by_name(start.header, table) if named else name_columns(table, normals_expected)
-    return from_columns(columns, f"text, {width} columns")
+    columns = _columns(body, start)
+    if len(columns.table) < announced:
+        cut = "It may have been cut off while being copied."
+        raise UnreadableInput(f"it ends after {len(columns.table)} of its {announced} points.", cut)
+    width = columns.width
+    notes = columns.notes()
+    if _names_fit(start, columns, notes):
+        named = columns.named(_padded(start.header, width))
+    else:
+        columns = columns.without_row_numbers(notes)
+        named = name_columns(columns.table, normals_expected)
+        if start.counted is not None and len(named) in _PTS and "nx" not in named:
+            named = dict(zip(["x", "y", "z", *_PTS[len(named)]], named.values(), strict=True))
+    return from_columns(named, f"text, {width} columns", notes)
+
+
+def _names_fit(start: _Start, columns: Columns, notes: list[str]) -> bool:
+    """Say whether the header names the columns; it must, if it names x, y and z elsewhere than in front."""
+    if len(start.header) in {columns.width, columns.width - 1} and columns.fits(len(start.header)):
+        return True
+    plain = [plain_name(name) for name in start.header]
+    named = coordinates_among(plain)
+    if len(named) < 3:
+        return False
+    told = f"Its header names {len(plain)} columns, its rows have {columns.width}"
+    if tuple(plain[:3]) != named:
+        raise UnreadableInput(f"{told[0].lower()}{told[1:]}.", "Give each column a name.")
+    notes.append(f"{told}: the first three are taken for coordinates.")
+    return False
+
+
+def _padded(header: list[str], width: int) -> list[str]:
+    """Return the names of all columns: R does not name the one that numbers the rows."""
+    names = ["", *header] if len(header) < width else header
+    return [name or f"column_{i}" for i, name in enumerate(names, 1)]
+
+
+def _columns(body: str, start: _Start) -> Columns:
+    """Return the columns of the rows, quickly if all are numbers."""
+    if not start.words:
+        try:
+            table = parse_table(body.replace('"', "").translate(_SEPARATORS).splitlines(), start.line_number)
+        except UnreadableInput:
+            if not start.separator:
+                raise
+        else:
+            return Columns(table, list(range(table.shape[1])), table.shape[1])
+    return parse_columns(body.splitlines(), start.separator, start.line_number)
 
 
 @dataclass(frozen=True)
 class _Start:
-    """The first line of numbers, and the words of the header before it."""
+    """The first row, the names in the header before it, and the number in a line of its own, which counts points."""
 
     offset: int
     line_number: int
     line: str
-    header: list[str]
+    separator: str
+    words: bool
+    header: list[str] = field(default_factory=list)
+    counted: int | None = None
 
 
 def _find_numbers(text: str) -> _Start:
     header: list[str] = []
-    offset = 0
+    offset, counted = 0, None
     for _ in range(MOST_HEADER_LINES):
         unread = _UNREAD.match(text, offset)
         if unread is not None:
@@ -64,23 +134,49 @@ def _find_numbers(text: str) -> _Start:
             offset = unread.end()
         line = text[offset : text.find("\n", offset) + 1] or text[offset:]
         content = _COMMENT.sub("", line)
-        tokens = _tokens(content)
-        if not tokens:
+        if not content.strip():
             break
-        if not all(map(is_number, tokens)):
-            header = tokens
-        elif len(tokens) > 1:
-            return _Start(offset, text.count("\n", 0, offset) + 1, content, header)
-        # What is left is a single number: the count of points that PTS files begin with.
+        separator = separator_of(content)
+        tokens = fields_of(content, separator)
+        numbers = [is_number(token) for token in tokens]
+        after = text[offset + len(line) : offset + len(line) + 10_000].lstrip().split("\n")[0]
+        if len(tokens) > 1 and (all(numbers) or _is_row(numbers, fields_of(after, separator))):
+            line_number = text.count("\n", 0, offset) + 1
+            return _Start(offset, line_number, content, separator, not all(numbers), header, counted)
+        # What is left besides headers is a single number: the count of points that PTS files begin with.
+        counted = int(tokens[0]) if tokens[0].isdecimal() and len(tokens) == 1 else counted
+        header = header if numbers == [True] else tokens
         offset += len(line)
     raise UnreadableInput("there are no points in it.", "One point a line is expected, as in: 0.1 0.2 0.3")
 
 
+def _is_row(numbers: list[bool], following: list[str]) -> bool:
+    """Say whether a line that is not all numbers is a row: it has three, and the next line has numbers there, too."""
+    if sum(numbers) < 3:
+        return False
+    if following == [""]:
+        return True
+    alike = zip(numbers, following, strict=False)
+    return len(following) == len(numbers) and all(not one or is_number(other) or not other for one, other in alike)
+
+
+def separator_of(line: str) -> str:
+    """Return what separates the fields of a line: a semicolon, a tab or a comma, or nothing but blanks ("")."""
+    if comma_is_decimal(line) and ";" not in line and "\t" not in line:
+        return ""
+    return next((each for each in ";\t," if each in line.strip()), "")
+
+
+def fields_of(line: str, separator: str) -> list[str]:
+    """Return the fields of a line, without quotes; between separators other than blanks they may be empty."""
+    fields = line.strip().split(separator) if separator else (line.split() or [""])
+    if separator:
+        fields = [each.replace(",", ".") if separator != "," else each for each in fields]
+    return [each.strip().strip("\"'") for each in fields]
+
+
 def _named(comment: str) -> list[str]:
     """Return the words of a comment if they name columns, else none."""
-    words = _tokens(comment.strip().lstrip("#/%"))
+    line = comment.strip().lstrip("#/%")
+    words = [each for each in re.split(r"[,;\s]+", line) if each]
     return words if "x" in map(str.lower, words) else []
-
-
-def _tokens(line: str) -> list[str]:
-    return [token.strip("\"'") for token in re.split(r"[,;\s]+", line.strip()) if token]

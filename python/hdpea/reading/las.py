@@ -1,0 +1,92 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""LAS, LAZ and COPC, by laspy."""
+
+from __future__ import annotations
+
+import io
+import struct
+from collections.abc import Iterable
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hdpea.errors import UnreadableInput
+from hdpea.reading.arrays import ALWAYS_UNPACKED, MOST_UNPACKED
+from hdpea.reading.cloud import PointCloud, from_columns
+
+CHUNK = 1_000_000
+"""Points decoded at a time: the file and its points are in memory, nothing else of their size."""
+
+PROJECTED, GEOGRAPHIC = 3072, 2048
+"""Keys of GeoTIFF whose values are the EPSG codes of coordinate reference systems."""
+
+USER_DEFINED = 32767
+"""The value of such a key that is no code."""
+
+VLRS, VLR_HEADER, EVLR_HEADER = struct.Struct("<100xI"), 54, 60
+"""Where a file says how many variable length records it has; bytes of each, and of each extended one, at least."""
+
+_GRID = frozenset("XYZ")
+
+
+def parse_las(data: bytes) -> PointCloud:
+    """Read the points of a LAS, LAZ or COPC file at its scale and offset, with all their dimensions and their CRS.
+
+    Points that are marked as withheld, which the format takes for deleted, are left out; so are dimensions that are
+    zero everywhere, as files have many that nobody filled in.
+
+    Raises
+    ------
+    laspy.errors.LaspyException
+        If it is damaged.
+    """
+    import laspy
+
+    (vlrs,) = VLRS.unpack_from(data)
+    _require_room(vlrs * VLR_HEADER, len(data))
+    with laspy.open(io.BytesIO(data), read_evlrs=False) as reader:
+        header = reader.header
+        _require_room(header.number_of_evlrs * EVLR_HEADER, len(data))
+        reader.read_evlrs()
+        _require_room(header.point_count * header.point_format.size, max(MOST_UNPACKED * len(data), ALWAYS_UNPACKED))
+        names = [name for name in header.point_format.dimension_names if name not in _GRID]
+        columns: dict[str, NDArray[Any]] = {}
+        start = 0
+        for chunk in reader.chunk_iterator(CHUNK):
+            for name in ("x", "y", "z", *names):
+                values = np.asarray(chunk[name])
+                if name not in columns:
+                    columns[name] = np.zeros((header.point_count, *values.shape[1:]), values.dtype)
+                columns[name][start : start + len(chunk)] = values
+            start += len(chunk)
+        if start < header.point_count:
+            raise ValueError(f"it ends after {start} of its {header.point_count} points")
+        told = [*header.vlrs, *(header.evlrs or [])]
+    kept = ~columns.pop("withheld").astype(bool) if "withheld" in columns else np.ones(start, bool)
+    filled = {name: values[kept] for name, values in columns.items() if name in "xyz" or values[kept].any()}
+    withheld = start - int(kept.sum())
+    notes = [f"Left out points that are withheld: {withheld:,}."] if withheld else []
+    cloud = from_columns(filled, f"{'LAZ' if header.are_points_compressed else 'LAS'} {header.version}", notes)
+    return PointCloud(cloud.points, cloud.normals, cloud.attributes, cloud.format, cloud.notes, crs=_crs(told))
+
+
+def _require_room(announced: int, most: int) -> None:
+    """Refuse a header that promises more bytes than the file can hold, before time and memory are taken for them."""
+    if announced > most:
+        raise UnreadableInput(
+            f"it cannot hold the {announced:,} bytes that its header announces.",
+            "It may have been cut off while being copied.",
+        )
+
+
+def _crs(vlrs: Iterable[Any]) -> str | None:
+    """Return the coordinate reference system as WKT, or as an EPSG code."""
+    keys: dict[int, int] = {}
+    for vlr in vlrs:
+        wkt = getattr(vlr, "string", "") if type(vlr).__name__ == "WktCoordinateSystemVlr" else ""
+        if wkt.strip("\0 "):
+            return str(wkt.strip("\0 "))
+        keys |= {key.id: key.value_offset for key in getattr(vlr, "geo_keys", ())}
+    codes = (keys.get(key, USER_DEFINED) for key in (PROJECTED, GEOGRAPHIC))
+    return next((f"EPSG:{code}" for code in codes if code not in {0, USER_DEFINED}), None)
