@@ -29,13 +29,14 @@ class Job:
     report: Path | None = None
     dropped: Path | None = None
     picture: Path | None = None
+    page: Path | None = None
 
     def outputs(self) -> list[tuple[Path, str]]:
         """Return the files that are to be written, and the kind of each."""
         from hdpea.writing.placement import placement_file
 
         mesh = self.destination.output
-        kinds = {"mesh": mesh, "report": self.report, "picture": self.picture}
+        kinds = {"mesh": mesh, "report": self.report, "picture": self.picture, "page": self.page}
         kinds["placement"] = mesh and placement_file(mesh)
         kinds["set of dropped points"] = self.dropped
         return [(path, kind) for kind, path in kinds.items() if path is not None]
@@ -126,6 +127,12 @@ def make_mesh(job: Job, progress: ProgressCallback | None) -> Report:
         tell(progress, "picture", 0.0)
         camera = Camera.before(result.vertices, result.faces, mean_sight(cloud.points, cloud.sensors()))
         draw_mesh(job.picture, result.vertices, result.faces, camera=camera)
+    if job.page:
+        from hdpea.report.page import write_result_page
+
+        tell(progress, "page", 0.0)
+        mesh, title = (result.vertices, result.faces), ", ".join(Path(each).name for each in sources)
+        write_result_page(job.page, title, mesh, cloud, result.report, result.attributes)
     return result.report
 
 
