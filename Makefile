@@ -24,7 +24,7 @@ PACKAGE_SOURCES := CMakeLists.txt pyproject.toml $(shell find src python -type f
 CPP_SOURCES := $(shell find src tests/cpp examples/cpp -name '*.[ch]pp')
 
 .NOTPARALLEL:
-.PHONY: help setup demo wheel test lint format core sanitize pytest fuzz bench-setup results losses trained-losses clean debian
+.PHONY: help setup demo wheel three test lint format core sanitize pytest fuzz bench-setup results losses trained-losses clean debian
 
 help:
 	@echo "make demo      reconstruct two real scans into $(DEMO)/"
@@ -97,6 +97,18 @@ wheel: debian $(VENV)/.dependencies
 	$(BIN)/pip wheel -qq --no-deps --no-build-isolation --wheel-dir build/wheel .
 	PATH="$(abspath $(BIN)):$$PATH" $(BIN)/auditwheel repair --strip --wheel-dir dist build/wheel/hdpea-*.whl
 
+# three.js for the pages that hdpea writes: one bundle of what they use, in the repository. To renew it: npm, and a new
+# version here and in NOTICE.
+THREE := 0.187.0
+PAGES := python/hdpea/pages
+three:
+	npm install --silent --no-save --prefix build/three three@$(THREE) esbuild@0.28
+	cp $(PAGES)/three.js build/three/entry.js
+	(echo "/*! three.js $(THREE), bundled for hdpea."; cat build/three/node_modules/three/LICENSE; echo "*/"; \
+	  build/three/node_modules/.bin/esbuild build/three/entry.js --bundle --minify --charset=utf8 --format=iife \
+	    --global-name=THREE --legal-comments=none --log-level=warning) > $(PAGES)/three.min.js
+	cp build/three/node_modules/three/LICENSE LICENSES/three.txt
+
 # ---- demo ------------------------------------------------------------------------------------------
 
 $(DEMO)/hippo1.ply: | debian
@@ -105,10 +117,10 @@ $(DEMO)/hippo1.ply: | debian
 
 demo: setup $(DEMO)/hippo1.ply
 	$(BIN)/hdpea reconstruct $(DEMO)/hippo1.ply $(DEMO)/hippo1.obj \
-	  --report $(DEMO)/hippo1.json --picture $(DEMO)/hippo1.png
+	  --report $(DEMO)/hippo1.json --picture $(DEMO)/hippo1.png --page $(DEMO)/hippo1.html
 	$(BIN)/hdpea reconstruct $(DEMO)/oni.pwn $(DEMO)/oni.obj \
-	  --report $(DEMO)/oni.json --picture $(DEMO)/oni.png
-	@echo "== Look at $(DEMO)/hippo1.png and $(DEMO)/oni.png; the meshes and reports lie beside them."
+	  --report $(DEMO)/oni.json --picture $(DEMO)/oni.png --page $(DEMO)/oni.html
+	@echo "== Open $(DEMO)/hippo1.html and $(DEMO)/oni.html in a browser; pictures, meshes and reports lie beside them."
 
 # ---- tests -----------------------------------------------------------------------------------------
 

@@ -7,9 +7,11 @@ from base64 import b64encode
 from collections.abc import Iterator, Mapping, Sequence
 from html import escape
 from pathlib import Path
+from urllib.parse import quote
 
 from hdpea.benchmark.gallery import Gallery
 from hdpea.benchmark.means import means_of
+from hdpea.benchmark.model_pages import page_path
 from hdpea.benchmark.record import LARGEST, RMS, Record
 from hdpea.benchmark.scene import ERROR_COLORS, RED_FROM
 from hdpea.benchmark.suite import HELD_OUT, MESH, Suite
@@ -61,7 +63,9 @@ def write_page(
     UsageError
         If it cannot be written.
     """
-    body = "\n".join([*_tables(suite, records), *curves.values(), *_gallery(suite, records, gallery), *_quoted(suite)])
+    body = "\n".join(
+        [*_tables(suite, records), *curves.values(), *_gallery(path.parent, suite, records, gallery), *_quoted(suite)]
+    )
     title = escape(suite.options.title or suite.name)
     small = "".join(f'<p class="small">{escape(each)}</p>' for each in subtitle)
     with replacing(path) as partial:
@@ -96,7 +100,7 @@ def _table(titles: Sequence[str], rows: Sequence[Sequence[tuple[str, bool]]]) ->
     return f"<table><tr>{head}</tr>" + "".join(f"<tr>{line}</tr>" for line in lines) + "</table>"
 
 
-def _gallery(suite: Suite, records: Sequence[Record], gallery: Gallery) -> Iterator[str]:
+def _gallery(folder: Path, suite: Suite, records: Sequence[Record], gallery: Gallery) -> Iterator[str]:
     if not gallery.truths:
         return
     colors = ", ".join(f"rgb({r}, {g}, {b})" for r, g, b in ERROR_COLORS)
@@ -109,12 +113,24 @@ def _gallery(suite: Suite, records: Sequence[Record], gallery: Gallery) -> Itera
     for model, truth in gallery.truths.items():
         for given in suite.inputs:
             for vertices in suite.options.vertices:
-                yield f"<h3>{escape(model)}: {escape(given.name)}, {vertices:,} vertices</h3><div class='row'>"
+                shown = [
+                    record
+                    for record in records
+                    if (record.model, record.given, record.vertices) == (model, given.name, vertices)
+                ]
+                yield f"<h3>{escape(model)}: {escape(given.name)}, {vertices:,} vertices</h3>"
+                yield f"{_link(folder, shown)}<div class='row'>"
                 yield f"<figure>{_image(truth)}<figcaption>the truth</figcaption></figure>"
-                for record in records:
-                    if (record.model, record.given, record.vertices) == (model, given.name, vertices):
-                        yield _figure(record, gallery)
+                yield from (_figure(record, gallery) for record in shown)
                 yield "</div>"
+
+
+def _link(folder: Path, records: Sequence[Record]) -> str:
+    """Return a link to the page of these runs, if there is one."""
+    path = page_path(folder, records[0]) if records else None
+    if path is None or not path.is_file():
+        return ""
+    return f'<p><a href="{escape(quote(path.relative_to(folder).as_posix()))}">Turn them</a></p>'
 
 
 def _figure(record: Record, gallery: Gallery) -> str:

@@ -15,7 +15,7 @@ from hdpea.cli.streams import sound_streams
 from hdpea.errors import HdpeaError, Interrupted, UsageError, core_errors_translated
 from hdpea.runtime.interrupts import prompt_interrupts
 
-COMMANDS = ("reconstruct", "evaluate", "embed", "curvature", "info", "dataset", "train", "benchmark")
+COMMANDS = ("reconstruct", "evaluate", "embed", "curvature", "info", "view", "dataset", "train", "benchmark")
 TRACEBACK = "HDPEA_TRACEBACK"
 
 EPILOG = """\b

@@ -35,9 +35,22 @@ Exit codes: 0 ok, 2 usage or a library is missing, 3 no such suite or meshes,
     help="only this one of the suite; may be repeated",
 )
 @click.option("--models", cls=GroupedOption, type=int, help="number of models, evenly over their names; 0: all")
+@click.option(
+    "--page",
+    cls=GroupedOption,
+    is_flag=True,
+    help="also a page for each model pictured, to turn the results side by side; index.html links to them",
+)
 @quiet_option
 def command(
-    *, suite: str, output: Path, meshes: str | None, methods: tuple[str, ...], models: int | None, quiet: bool
+    *,
+    suite: str,
+    output: Path,
+    meshes: str | None,
+    methods: tuple[str, ...],
+    models: int | None,
+    page: bool,
+    quiet: bool,
 ) -> None:
     """Run the methods of SUITE on points of true meshes, and evaluate and compare the results in OUT.
 
@@ -68,6 +81,10 @@ def command(
             click.echo(line, err=True)
 
     records = run_suite(wanted, where, output, log)
+    if page:
+        from hdpea.benchmark.model_pages import write_model_pages
+
+        write_model_pages(wanted, where, output, records, log)
     write_results(output, wanted, records, draw_gallery(wanted, where, output, records, log))
     log(f"{output / 'index.html'}: {len(records)} runs, {sum(bool(each.failed) for each in records)} failed")
     if all(each.failed for each in records):

@@ -105,6 +105,6 @@ def _check_outputs(output: Path, picture: Path | None, page: Path | None) -> Non
         check_output(picture, PICTURE_FORMATS)
         check_drawing()
     if page:
-        from hdpea.curvature.page import PAGE_FORMATS
+        from hdpea.pages.page import PAGE_FORMATS
 
         check_output(page, PAGE_FORMATS)

@@ -29,6 +29,7 @@ class Job:
     report: Path | None = None
     dropped: Path | None = None
     picture: Path | None = None
+    page: Path | None = None
 
     def outputs(self) -> list[tuple[Path, str]]:
         """Return the files that are to be written, and the kind of each."""
@@ -36,7 +37,7 @@ class Job:
         from hdpea.writing.placement import placement_file
 
         mesh = self.destination.output
-        kinds = {"mesh": mesh, "report": self.report, "picture": self.picture}
+        kinds = {"mesh": mesh, "report": self.report, "picture": self.picture, "page": self.page}
         kinds["placement"] = mesh and placement_file(mesh)
         kinds["set of dropped points"] = self.dropped
         if mesh is not None and mesh.suffix.lower() == ".obj" and self.options.texture is not None:
@@ -129,6 +130,12 @@ def make_mesh(job: Job, progress: ProgressCallback | None) -> Report:
         tell(progress, "picture", 0.0)
         camera = Camera.before(result.vertices, result.faces, mean_sight(cloud.points, cloud.sensors()))
         draw_mesh(job.picture, result.vertices, result.faces, camera=camera)
+    if job.page:
+        from hdpea.report.page import write_result_page
+
+        tell(progress, "page", 0.0)
+        mesh, title = (result.vertices, result.faces), ", ".join(Path(each).name for each in sources)
+        write_result_page(job.page, title, mesh, cloud, result.report, result.attributes)
     return result.report
 
 

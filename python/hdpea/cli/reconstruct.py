@@ -34,7 +34,7 @@ Examples:
   hdpea reconstruct scan.ply                # makes scan.mesh.ply
   hdpea reconstruct scan.ply mesh.obj
   hdpea reconstruct scan.ply mesh.ply --vertices 5000 --report report.json
-  hdpea reconstruct scan.xyz mesh.glb --faces 20000 --picture mesh.png
+  hdpea reconstruct scan.xyz mesh.glb --faces 20000 --picture mesh.png --page mesh.html
   hdpea reconstruct a.ply b.laz c.e57 --out-dir meshes/ --json > made.jsonl
   hdpea reconstruct front.ply back.ply mesh.ply --merge
   ssh there cat scan.laz | hdpea reconstruct - - --format stl > mesh.stl
@@ -70,6 +70,9 @@ Of several meshes, the gravest: 1, 4, 3, 2, then 5.
     "--dropped", cls=GroupedOption, type=PATH, help="write the points that were left out and why, as PLY or NPZ"
 )
 @click.option("--picture", cls=GroupedOption, type=PATH, help="draw the mesh, as PNG; needs no screen")
+@click.option(
+    "--page", cls=GroupedOption, type=PATH, help="show mesh and points as an HTML file, for any browser, offline"
+)
 @config_option
 @force_option
 @click.option("--json", "as_json", cls=GroupedOption, is_flag=True, help="print one line of JSON for each mesh")
@@ -89,6 +92,7 @@ def command(
     report: Path | None,
     dropped: Path | None,
     picture: Path | None,
+    page: Path | None,
     force: bool,
     as_json: bool,
     verbose: bool,
@@ -107,11 +111,13 @@ def command(
     Lengths are in the units of the file, or in percent of the diagonal of the cloud's bounding box.
     """
     options = chosen_options(ctx, values)
-    if out_dir is not None and (report or dropped or picture):
+    if out_dir is not None and (report or dropped or picture or page):
         raise UsageError(
-            "`report`, `dropped` and `picture` are of one mesh, not of several.", "`as_json` tells of each."
+            "`report`, `dropped`, `picture` and `page` are of one mesh, not of several.", "`as_json` tells of each."
         )
-    wanted = [Job(each, options, report, dropped, picture) for each in destinations(files, out_dir, merge, mesh_format)]
+    wanted = [
+        Job(each, options, report, dropped, picture, page) for each in destinations(files, out_dir, merge, mesh_format)
+    ]
     if as_json and wanted[0].destination.output is None:
         raise UsageError("Standard output is for the mesh or for `as_json`, not for both.", "Give a `report` instead.")
     if out_dir is not None:
@@ -127,10 +133,17 @@ def command(
 
 
 def _check_outputs(wanted: Sequence[Job], read: Sequence[Path | str | None], force: bool) -> None:
+    from hdpea.pages.page import PAGE_FORMATS
     from hdpea.pictures.picture import PICTURE_FORMATS, check_drawing
     from hdpea.writing.meshes import MESH_FORMATS, POINT_FORMATS
 
-    formats = {"mesh": MESH_FORMATS, "report": [".json"], "placement": [".json"], "picture": PICTURE_FORMATS}
+    formats = {
+        "mesh": MESH_FORMATS,
+        "report": [".json"],
+        "placement": [".json"],
+        "picture": PICTURE_FORMATS,
+        "page": PAGE_FORMATS,
+    }
     formats |= {"material": [".mtl"], "texture": [".png"]}
     kinds: dict[Path, str] = {}
     for job in wanted:

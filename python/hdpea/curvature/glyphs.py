@@ -13,7 +13,7 @@ from hdpea.curvature.tensors import CurvatureTensors
 from hdpea.errors import core_errors_translated
 from hdpea.geometry.tensors import frames
 from hdpea.geometry.unit_frame import UnitFrame
-from hdpea.pictures.colors import Colors, ratio_colors
+from hdpea.pictures.colors import UNDETERMINED, Colors, ratio_colors
 
 Rows = NDArray[np.float64]
 
@@ -37,9 +37,6 @@ REDDEST = 95
 
 LEAST_RED = 1.5
 
-UNDETERMINED = (0.62, 0.62, 0.62)
-"""Red, green and blue of a glyph without directions."""
-
 
 @dataclass(frozen=True)
 class Glyphs:
@@ -53,6 +50,8 @@ class Glyphs:
         (m, 3, 3) float64: half axes as rows, along direction 1, direction 2 and the normal.
     colors
         (m, 3) uint8, of the stretching ratio, grey where the directions are not determined.
+    ratios
+        (m,) float64: the stretching ratio, NaN where the directions are not determined.
     most
         The stretching ratio from which the colour is red.
     radius
@@ -65,6 +64,7 @@ class Glyphs:
     normals: Rows
     axes: Rows
     colors: Colors
+    ratios: Rows
     most: float
     radius: float
     frame: UnitFrame
@@ -92,7 +92,8 @@ def glyphs_of(tensors: CurvatureTensors, count: int) -> Glyphs:
     most = max(LEAST_RED, float(np.percentile(ratio[determined], REDDEST))) if determined.any() else LEAST_RED
     colored = ratio_colors(ratio, most)
     colors = np.where(determined[:, None], colored, np.rint(255 * np.array(UNDETERMINED))).astype(np.uint8)
-    return Glyphs(centres, normals, half_axes[:, :, None] * frames(normals, direction1), colors, most, radius, frame)
+    axes = half_axes[:, :, None] * frames(normals, direction1)
+    return Glyphs(centres, normals, axes, colors, np.where(determined, ratio, np.nan), most, radius, frame)
 
 
 def _tangents(normals: Rows) -> Rows:

@@ -154,6 +154,12 @@ def test_pictures_are_drawn_once_and_are_in_the_page(suite: Path, tmp_path: Path
     times = {path: path.stat().st_mtime_ns for path in out.rglob("*.webp")}
     assert run(["benchmark", str(suite), str(out), "--quiet"]) == 0
     assert {path: path.stat().st_mtime_ns for path in out.rglob("*.webp")} == times
+    assert "Turn them" not in (out / "index.html").read_text()
+    assert run(["benchmark", str(suite), str(out), "--quiet", "--page"]) == 0
+    assert 'href="pictures/small-clean-42.html"' in (out / "index.html").read_text()
+    shown = (out / "pictures" / "small-clean-42.html").read_text()
+    assert '"name":"coarse"' in shown
+    assert '"name":"the truth"' in shown
 
 
 def test_models_are_chosen_evenly() -> None:

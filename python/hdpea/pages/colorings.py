@@ -1,0 +1,125 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Meshes and points with all that they can be coloured by."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hdpea import _core
+from hdpea.errors import core_errors_translated
+from hdpea.geometry.mesh_curvature import largest_curvatures, triangle_stretches, vertex_means
+from hdpea.geometry.thinning import thinned
+from hdpea.geometry.triangles import area_vectors
+from hdpea.pages.shapes import Coloring, MeshShape, OwnColors, PointShape
+
+Rows = NDArray[np.float64]
+Attributes = Mapping[str, NDArray[Any]]
+
+MOST_POINTS = 200_000
+"""Points of a cloud that a page shows: 1.6 MB of it."""
+
+SATURATED = 98
+"""Percentile of the values at which a ramp ends."""
+
+COLORS = ("red", "green", "blue")
+
+DISTANCE = "distance"
+
+
+def mesh_shape(
+    name: str,
+    vertices: Rows,
+    faces: NDArray[np.int64],
+    points: Rows | None = None,
+    attributes: Attributes | None = None,
+) -> MeshShape:
+    """Return a mesh that can be coloured by curvature, by stretch, by its distance to points and by its attributes.
+
+    Parameters
+    ----------
+    vertices, faces
+        (v, 3) and (f, 3), f > 0, outward.
+    points
+        (n, 3), those that the mesh is to show.
+    attributes
+        Arrays (v,) or (v, c) by name, as files have them.
+    """
+    colorings: list[Coloring | OwnColors] = []
+    if points is not None and len(points):
+        colorings.append(_distances_at_vertices(vertices, faces, _rows(points, MOST_POINTS)))
+    areas = np.linalg.norm(area_vectors(vertices, faces), axis=1)
+    curvatures = largest_curvatures(vertices, faces)
+    most = _percentile(abs(curvatures), SATURATED)
+    note = "Principal curvature of largest magnitude, in 1 / unit of the file: red convex, blue concave."
+    colorings.append(Coloring("curvature", curvatures, -most, most, note))
+    logarithms = np.log(triangle_stretches(vertices, faces).clip(max=1e6))
+    stretches = np.exp(vertex_means(logarithms, faces, areas, len(vertices)))
+    note = "How many times longer than wide triangles are, against equilateral ones."
+    colorings.append(Coloring("stretch", stretches, 1.0, max(_percentile(stretches, SATURATED), 1.5), note, True))
+    colorings.extend(_of_attributes(attributes or {}, len(vertices)))
+    return MeshShape(name, vertices, faces, tuple(colorings))
+
+
+def point_shape(
+    name: str,
+    points: Rows,
+    mesh: tuple[Rows, NDArray[np.int64]] | None = None,
+    attributes: Attributes | None = None,
+) -> PointShape:
+    """Return up to ``MOST_POINTS`` of the points (n, 3), coloured by distance to a mesh and by their attributes."""
+    rows = thinned(len(points), MOST_POINTS)
+    points = np.ascontiguousarray(points[rows])
+    colorings: list[Coloring | OwnColors] = []
+    if mesh is not None:
+        with core_errors_translated():
+            distances = _core.closest_surface_points(*mesh, points).distance
+        note = "Distance of each point to the mesh, in units of the file."
+        colorings.append(Coloring(DISTANCE, distances, 0.0, _percentile(distances, SATURATED), note))
+    chosen = {name: values[rows] for name, values in (attributes or {}).items()}
+    colorings.extend(_of_attributes(chosen, len(points)))
+    return PointShape(name, points, tuple(colorings))
+
+
+def _rows(points: Rows, most: int) -> Rows:
+    return np.ascontiguousarray(points[thinned(len(points), most)])
+
+
+def _distances_at_vertices(vertices: Rows, faces: NDArray[np.int64], points: Rows) -> Coloring:
+    with core_errors_translated():
+        nearest = _core.closest_surface_points(vertices, faces, points)
+    largest = float(nearest.distance.max()) or 1.0
+    squares = np.bincount(nearest.face, (nearest.distance / largest) ** 2, len(faces))
+    counts = np.bincount(nearest.face, minlength=len(faces)).astype(np.float64)
+    means = np.divide(squares, counts, out=np.zeros(len(faces)), where=counts > 0)
+    distances = largest * np.sqrt(vertex_means(means, faces, counts, len(vertices)))
+    note = "Distance of the points on a vertex's faces, root mean square, in units of the file; grey: there are none."
+    return Coloring(DISTANCE, distances, 0.0, _percentile(distances, SATURATED), note)
+
+
+def _of_attributes(attributes: Attributes, count: int) -> Iterator[Coloring | OwnColors]:
+    columns = {name: np.asarray(values) for name, values in attributes.items() if len(values) == count}
+    if all(name in columns for name in COLORS):
+        yield OwnColors("colour", _bytes_of(np.column_stack([columns.pop(name) for name in COLORS])))
+    for name, values in columns.items():
+        if values.ndim == 1 and values.dtype.kind in "iufb":
+            numbers = values.astype(np.float64)
+            low, high = _percentile(numbers, 100 - SATURATED), _percentile(numbers, SATURATED)
+            yield Coloring(name, numbers, low, high, f"{name}, as in the file.")
+
+
+def _bytes_of(colors: NDArray[Any]) -> NDArray[np.uint8]:
+    """Return colours (n, 3) as bytes, by their range: shares of 1, bytes, or 16 bits."""
+    largest = float(colors.max(initial=0))
+    shares = colors.dtype.kind == "f" and largest <= 1
+    scale = 255 / (1 if shares else 255 if largest <= 255 else 65_535)
+    return np.rint(scale * colors.astype(np.float64)).clip(0, 255).astype(np.uint8)
+
+
+def _percentile(values: Rows, percent: float) -> float:
+    """Return the percentile of the finite values; 0 without any."""
+    finite = values[np.isfinite(values)]
+    return float(np.percentile(finite, percent)) if len(finite) else 0.0

@@ -1,0 +1,110 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Meshes and points as one HTML file, to be turned in any browser, offline."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Sequence
+from html import escape
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hdpea.pages.encoding import Box, encoded_shape, with_common_ranges
+from hdpea.pages.shapes import MeshShape, Shape, positions_of
+from hdpea.pictures.camera import choose_view, choose_view_of_points
+from hdpea.pictures.colors import RAMP, UNDETERMINED
+from hdpea.pictures.picture import BACK, DOTS, EDGES, FRONT
+from hdpea.runtime.marks import mark_of
+from hdpea.runtime.outputs import check_output, replacing
+
+PAGE_FORMATS = (".html", ".htm")
+
+HERE = Path(__file__).parent
+
+Figures = Sequence[tuple[str, str]]
+"""What is said about the shapes: names and values."""
+
+
+def write_page(
+    path: Path,
+    title: str,
+    shapes: Sequence[Shape],
+    figures: Figures = (),
+    *,
+    coloring: str = "",
+    beside: int | None = None,
+    sight: NDArray[np.float64] | None = None,
+) -> None:
+    """Write a page on which shapes can be turned, coloured and compared, that needs nothing but a browser with WebGL.
+
+    Parameters
+    ----------
+    path
+        An HTML file, replaced only once the new one is complete.
+    title
+        Of the page.
+    shapes
+        One at least, all in the same coordinates; the first is shown.
+    figures
+        What is said about them.
+    coloring
+        Name of the colouring that is shown first; by default none.
+    beside
+        Index of the shape that is shown beside the first; by default none.
+    sight
+        (3,), from where the surface was seen, as ``mean_sight`` returns it.
+
+    Raises
+    ------
+    UsageError
+        If the file cannot be written.
+    """
+    check_output(path, PAGE_FORMATS)
+    shapes = with_common_ranges(tuple(shapes))
+    box = Box(shapes)
+    view = _view(shapes[0], sight)
+    up = abs(view[1]).argmax()
+    scene = {
+        "shapes": [encoded_shape(each, box) for each in shapes],
+        "origin": (-box.extent / 2).tolist(),
+        "extent": box.extent.tolist(),
+        "up": (np.sign(view[1, up]) * np.eye(3)[up]).tolist(),
+        "eye": view[2].tolist(),
+        "coloring": coloring,
+        "beside": "" if beside is None else str(beside),
+        "ramp": [_bytes(each) for each in RAMP],
+        "unknown": _bytes(UNDETERMINED),
+        "colors": {"front": FRONT, "back": BACK, "edges": EDGES, "dots": DOTS},
+    }
+    values = {
+        "title": escape(title),
+        "mark": mark_of("page"),
+        "figures": "".join(f"<tr><td>{escape(name)}</td><td>{escape(value)}</td></tr>" for name, value in figures),
+        # The only character that could end the script that the data are part of.
+        "page": json.dumps(scene, separators=(",", ":")).replace("<", "\\u003c"),
+        "three": (HERE / "three.min.js").read_text(encoding="utf-8"),
+        **{name: (HERE / f"{name}.js").read_text(encoding="utf-8") for name in ("decoding", "drawing", "panel")},
+    }
+    with replacing(path) as partial:
+        # The title may be the name of a file, which need not be text.
+        partial.write_text(_filled(values), encoding="utf-8", errors="replace")
+
+
+def _filled(values: dict[str, str]) -> str:
+    """Return the template with each ``{{name}}`` replaced by its value, in which nothing is replaced."""
+    first, *rest = (HERE / "page.html").read_text(encoding="utf-8").split("{{")
+    named = (each.split("}}", 1) for each in rest)
+    return first + "".join(values[name] + text for name, text in named)
+
+
+def _view(shape: Shape, sight: NDArray[np.float64] | None) -> NDArray[np.float64]:
+    if isinstance(shape, MeshShape):
+        return choose_view(shape.vertices, shape.faces, sight)
+    points = positions_of(shape)
+    return choose_view_of_points(points, np.zeros_like(points), sight)
+
+
+def _bytes(color: tuple[float, float, float]) -> list[int]:
+    return [round(255 * share) for share in color]
