@@ -23,7 +23,7 @@ def columns_of(attributes: Mapping[str, ArrayLike], count: int) -> dict[str, NDA
     Raises
     ------
     UsageError
-        If one is no array of numbers for each of `count` vertices.
+        If one is no array of numbers for each of `count` vertices, or called as a coordinate is.
     """
     columns: dict[str, NDArray[Any]] = {}
     for name, values in attributes.items():
@@ -33,6 +33,8 @@ def columns_of(attributes: Mapping[str, ArrayLike], count: int) -> dict[str, NDA
             hint = f"Attributes are numbers of shape ({count},) or ({count}, c)."
             raise UsageError(f"The attribute {name!r} is {what}, for {count} vertices.", hint)
         word = re.sub(r"\s+", "_", name)  # what PLY separates names by
+        if word in {"x", "y", "z"}:
+            raise UsageError(f"The attribute {name!r} has the name of a coordinate.", "Call it something else.")
         named = {word: array} if array.ndim == 1 else {f"{word}_{i}": column for i, column in enumerate(array.T)}
         columns |= {each: _of_ply(column) for each, column in named.items()}
     return columns

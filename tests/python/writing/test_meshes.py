@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -93,6 +94,32 @@ def test_what_is_no_mesh_is_not_written(
     with pytest.raises(UsageError, match=reason):
         write_mesh(tmp_path / "mesh.obj", vertices, faces)
     assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize(
+    ("attributes", "reason"),
+    [
+        ({"label": np.ones(3)}, "'label' is float64 of shape"),
+        ({"label": np.array(list("abcd"))}, "'label' is <U1"),
+        ({"label": np.ones((4, 2, 2))}, "'label' is float64"),
+        ({"x": np.ones(4)}, "name of a coordinate"),
+    ],
+)
+def test_what_is_no_attribute_is_not_written(attributes: dict[str, NDArray[Any]], reason: str, tmp_path: Path) -> None:
+    with pytest.raises(UsageError, match=reason):
+        write_mesh(tmp_path / "mesh.ply", tetrahedron(), TETRAHEDRON_FACES, attributes)
+    assert list(tmp_path.iterdir()) == []
+
+
+def test_ply_holds_attributes_of_every_type(tmp_path: Path) -> None:
+    values = np.array([0, 1, 2, 3])
+    kinds = {name: values.astype(name) for name in ("int8", "uint16", "int32", "uint32", "int64", "float32", "float64")}
+    attributes = {**kinds, "bool": values > 1, "large": values + 2**40, "a name": values}
+    write_mesh(tmp_path / "mesh.ply", tetrahedron(), TETRAHEDRON_FACES, attributes)
+    found = read_points(tmp_path / "mesh.ply").attributes
+    assert set(found) == {*kinds, "bool", "large", "a_name"}
+    for name, column in attributes.items():
+        np.testing.assert_array_equal(found[name.replace(" ", "_")], column)
 
 
 def test_an_empty_mesh_is_a_legal_file(tmp_path: Path) -> None:
