@@ -28,7 +28,7 @@ from hdpea.reading.attributes import split_colors
 from hdpea.reading.cloud import PointCloud, cleaned_cloud
 from hdpea.reading.objects import PointsLike
 from hdpea.report.agreement import agreement_of
-from hdpea.report.measurement import distances_to, mesh_facts, missed_targets
+from hdpea.report.measurement import coarseness, distances_to, mesh_facts, missed_targets
 from hdpea.report.report import Journal, Report
 from hdpea.runtime.clock import StageClock
 from hdpea.runtime.progress import ProgressCallback, tell
@@ -259,6 +259,7 @@ def reconstruct(
     journal.choices += [*prepared.choices, *count_choices, *embedded.choices, *mesh.choices]
     journal.meshing |= mesh.statistics
     journal.notes += [*cloud.notes, *found.notes, *prepared.notes, *faced.notes]
+    journal.notes += coarseness(distances, surface.frame.diagonal, options.meshing)
     journal.missed += [*missed_targets(mesh, facts, options.meshing), *agreement.missed()]
     vertices_in_world = surface.frame.to_world(mesh.vertices_in_unit)
     report = Report.of(journal, facts, distances, agreement)

@@ -34,7 +34,17 @@ def _print_version(ctx: click.Context, _: click.Parameter, wanted: bool) -> None
         ctx.exit()
 
 
+def _print_manual(ctx: click.Context, _: click.Parameter, wanted: bool) -> None:
+    if wanted:
+        from hdpea.cli.manual import manual
+        from hdpea.version import version
+
+        click.echo(manual(hdpea, ctx, version()), nl=False)
+        ctx.exit()
+
+
 @click.group(
+    "hdpea",
     cls=lazy_group("hdpea.cli", COMMANDS),
     epilog=EPILOG,
     context_settings={"help_option_names": ["-h", "--help"], "max_content_width": 100},
@@ -46,6 +56,14 @@ def _print_version(ctx: click.Context, _: click.Parameter, wanted: bool) -> None
     expose_value=False,
     callback=_print_version,
     help="Show the version, and what it is made of.",
+)
+@click.option(
+    "--man",
+    is_flag=True,
+    is_eager=True,
+    expose_value=False,
+    callback=_print_manual,
+    help="Print all help as a manual page, as in: hdpea --man | man -l -",
 )
 @click.option("--debug", is_flag=True, help=f"Show where an error came from, as {TRACEBACK}=1 does.")
 def hdpea(debug: bool) -> None:

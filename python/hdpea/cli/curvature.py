@@ -27,7 +27,7 @@ Exit codes: 0 ok, 1 internal error, 2 usage, 3 unreadable input,
 
 
 @click.command(cls=GroupedCommand, epilog=EPILOG, no_args_is_help=True, short_help="Estimate curvature tensors.")
-@click.argument("source", metavar="IN")
+@click.argument("source", metavar="IN", type=click.Path())
 @click.argument("output", metavar="OUT", type=PATH)
 @click.option("--picture", cls=GroupedOption, type=PATH, help="draw the tensors, as PNG; needs no screen")
 @click.option(

@@ -19,7 +19,7 @@ Examples:
 
 
 @click.command(cls=GroupedCommand, epilog=EPILOG, no_args_is_help=True, short_help="Embed a point cloud into R^8.")
-@click.argument("source", metavar="IN")
+@click.argument("source", metavar="IN", type=click.Path())
 @click.argument("output", metavar="OUT", type=PATH)
 @config_option
 @force_option

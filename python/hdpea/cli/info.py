@@ -22,7 +22,7 @@ Examples:
 
 
 @click.command(cls=GroupedCommand, epilog=EPILOG, no_args_is_help=True, short_help="Say what is in a point cloud.")
-@click.argument("source", metavar="IN")
+@click.argument("source", metavar="IN", type=click.Path())
 @click.option("--json", "as_json", is_flag=True, help="print the facts as JSON")
 def command(source: str, as_json: bool) -> None:
     """Say what is in the point cloud IN, and what making a mesh of it would take.
@@ -50,6 +50,8 @@ def _describe(facts: CloudFacts) -> str:
         "normals": _normals(facts),
         "a run needs": _needs(facts),
     }
+    if facts.crs is not None:
+        rows["crs"] = facts.crs
     return "\n".join([*(f"{name:<12}{value}" for name, value in rows.items()), *facts.notes])
 
 

@@ -24,4 +24,13 @@ def lazy_group(package: str, commands: Sequence[str]) -> type[click.Group]:
             command.name = name
             return command
 
+        def resolve_command(
+            self, ctx: click.Context, args: list[str]
+        ) -> tuple[str | None, click.Command | None, list[str]]:
+            try:
+                return super().resolve_command(ctx, args)
+            except click.exceptions.NoSuchCommand as error:
+                # The nearest of them is suggested, of which click knows only those that it has loaded.
+                raise click.exceptions.NoSuchCommand(error.command_name, possibilities=commands, ctx=ctx) from error
+
     return LazyGroup

@@ -47,7 +47,7 @@ Of several meshes, the gravest: 1, 4, 3, 2, then 5.
 
 
 @click.command(cls=GroupedCommand, epilog=EPILOG, no_args_is_help=True, short_help="Make a mesh of a point cloud.")
-@click.argument("files", metavar="IN... [OUT]", nargs=-1, required=True)
+@click.argument("files", metavar="IN... [OUT]", nargs=-1, required=True, type=click.Path())
 @click.option("--out-dir", cls=GroupedOption, type=PATH, help="folder for a mesh of each IN, called IN.mesh.ply")
 @click.option(
     "--jobs",

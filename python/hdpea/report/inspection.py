@@ -47,6 +47,7 @@ class CloudFacts:
     default_vertices: int
     estimated_seconds: float
     estimated_peak_bytes: float
+    crs: str | None
     notes: list[str]
 
 
@@ -74,6 +75,7 @@ def inspect(cloud: PointCloud) -> CloudFacts:
         default_vertices=vertices,
         estimated_seconds=seconds_of_run(left, vertices, bool(oriented)),
         estimated_peak_bytes=PEAK_BYTES.of(left, vertices),
+        crs=cloud.crs,
         notes=[*cloud.notes, *found.notes],
     )
 

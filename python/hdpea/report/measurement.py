@@ -13,6 +13,12 @@ from hdpea.options import MeshingOptions
 from hdpea.report.report import Distances, MeshFacts
 from hdpea.surface.surface import Surface
 
+HARDLY_SHOWN = 0.01
+"""Root mean square distance of the points to the mesh, in diagonals, from which on a mesh is said to be too coarse.
+
+Of six training meshes, 5,000 points each, it is 0.014 to 0.097 with 5 vertices, 0.005 to 0.014 with 20, and below 0.003
+with 50 on those whose mesh comes out whole."""
+
 
 def mesh_facts(mesh: Mesh) -> MeshFacts:
     """Check a mesh, by code that its construction has no part in.
@@ -42,6 +48,16 @@ def distances_to(mesh: Mesh, surface: Surface) -> Distances:
     nearest = _core.closest_surface_points(mesh.vertices_in_unit, mesh.faces, surface.points_in_unit)
     diagonal = surface.frame.diagonal
     return Distances.of(nearest.distance * diagonal, surface.spacing * diagonal)
+
+
+def coarseness(distances: Distances, diagonal: float, options: MeshingOptions) -> Iterator[str]:
+    """Yield a sentence if the mesh has so few vertices, as was asked for, that it hardly shows the shape."""
+    share = distances.rms / diagonal if diagonal > 0 else 0.0
+    if share > HARDLY_SHOWN and not options.any_size:
+        yield (
+            f"So few vertices hardly show the shape: the points are {share:.1%} of its size off the mesh (rms). "
+            "Ask for more, or for none: the default is one for every 8 points."
+        )
 
 
 def missed_targets(mesh: Mesh, facts: MeshFacts, options: MeshingOptions) -> Iterator[str]:
