@@ -27,6 +27,7 @@ from hdpea.options.settings import changed
 from hdpea.reading.attributes import split_colors
 from hdpea.reading.cloud import PointCloud, cleaned_cloud
 from hdpea.reading.objects import PointsLike
+from hdpea.report.achieved_error import achieved_error
 from hdpea.report.agreement import agreement_of
 from hdpea.report.measurement import coarseness, distances_to, mesh_facts, missed_targets
 from hdpea.report.report import Journal, Report
@@ -129,6 +130,7 @@ def reconstruct(
     *,
     vertices: int | None = None,
     faces: int | None = None,
+    error: Length | str | float | None = None,
     watertight: bool | None = None,
     fill_holes: Length | str | float | None = None,
     orient: str | None = None,
@@ -160,6 +162,9 @@ def reconstruct(
         An embedding of your own, in place of the one that the options name.
     vertices, faces
         How many are wanted; one of the two. Default: one vertex for every 8 points.
+    error
+        As few triangles as keep within this length of the points, both ways: in world units, or text such as ``"1%"``
+        of the diagonal. `vertices` or `faces` are then the most there may be.
     watertight
         Whether to close every hole, whatever its size. Default: False.
     fill_holes
@@ -209,6 +214,7 @@ def reconstruct(
     common = {
         "vertices": vertices,
         "faces": faces,
+        "error": None if error is None else Length.of(error),
         "watertight": watertight,
         "fill_holes": None if fill_holes is None else Length.of(fill_holes),
         "orient": orient,
@@ -250,7 +256,10 @@ def reconstruct(
             tell(progress, "measuring", 0)
             facts = mesh_facts(mesh)
             distances = distances_to(mesh, prepared.oriented.surface)
-            agreement = agreement_of(mesh, surface, options.vertices_of(found.points_shown))
+            error_reached = achieved_error(mesh, surface, prepared.oriented.surface, options.meshing.error)
+            free = options.meshing.error is not None
+            wanted = len(mesh.vertices_in_unit) if free else options.vertices_of(found.points_shown)
+            agreement = agreement_of(mesh, surface, wanted)
             tell(progress, "measuring", 1)
     journal.source["format"] = cloud.format
     if cloud.crs is not None:
@@ -260,9 +269,9 @@ def reconstruct(
     journal.meshing |= mesh.statistics
     journal.notes += [*cloud.notes, *found.notes, *prepared.notes, *faced.notes]
     journal.notes += coarseness(distances, surface.frame.diagonal, options.meshing)
-    journal.missed += [*missed_targets(mesh, facts, options.meshing), *agreement.missed()]
+    journal.missed += [*missed_targets(mesh, facts, options.meshing), *error_reached.missed(), *agreement.missed()]
     vertices_in_world = surface.frame.to_world(mesh.vertices_in_unit)
-    report = Report.of(journal, facts, distances, agreement)
+    report = Report.of(journal, facts, distances, agreement, error_reached)
     return Reconstruction(vertices_in_world, mesh.faces, report, found.dropped, carried, cloud.crs, texture_of_points)
 
 

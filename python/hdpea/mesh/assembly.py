@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hdpea.mesh.budget import Budget
+from hdpea.mesh.error_bound import ErrorBound, simplify_within
 from hdpea.mesh.extraction import Mesh, extract_mesh
 from hdpea.mesh.particles import spread_particles
 from hdpea.mesh.refinement import refine_mesh
@@ -59,14 +60,22 @@ def assemble_mesh(
     mesh = _mesh_of_particles(surface, coordinates, bases, options, points_shown, progress, clock)
     with clock.stage("refinement"):
         mesh = refine_mesh(mesh, surface, options.refinement, of_phase(progress, "refinement"))
+    bound = None
+    if options.meshing.error is not None:
+        bound = ErrorBound(surface, surface.frame.length_to_unit(options.meshing.error))
+        with clock.stage("simplification"):
+            mesh = simplify_within(mesh, bound, of_phase(progress, "simplification"))
     if Budget.of(options.meshing).excess(mesh) > 0:
         with clock.stage("simplification"):
-            mesh = simplify_mesh(mesh, options.meshing, of_phase(progress, "simplification"))
+            mesh = simplify_mesh(mesh, surface, options.meshing, of_phase(progress, "simplification"))
         with clock.stage("refinement"):
             mesh = refine_mesh(mesh, surface, options.refinement, of_phase(progress, "refinement"))
     with clock.stage("repair"):
         tell(progress, "repair", 0)
-        mesh = repair_mesh(mesh)
+        mended = repair_mesh(mesh)
+        # An error that was asked for comes first.
+        if bound is None or bound.kept_by(mended) or not bound.kept_by(mesh):
+            mesh = mended
         tell(progress, "repair", 1)
     return mesh
 

@@ -60,9 +60,9 @@ def particles_wanted(options: Options, points: int, points_shown: int) -> tuple[
         )
     if options.particles.particles is not None:
         return particles, ()
-    if options.meshing.any_size:
+    if options.meshing.any_size and options.meshing.error is None:
         return particles, (Choice("vertices", vertices, "", f"one for every {POINTS_PER_VERTEX} points"),)
-    if particles > vertices:
+    if particles > vertices or options.meshing.error is not None:
         why = f"what {points_shown:,} points can show; the mesh is simplified from these"
         return particles, (Choice("particles", particles, "", why),)
     return particles, ()

@@ -14,13 +14,15 @@ from hdpea.errors import core_errors_translated
 from hdpea.mesh.extraction import Mesh
 from hdpea.options import MeshingOptions
 from hdpea.runtime.progress import PhaseCallback
+from hdpea.surface.surface import Surface
 
 
-def simplify_mesh(mesh: Mesh, options: MeshingOptions, progress: PhaseCallback | None = None) -> Mesh:
+def simplify_mesh(mesh: Mesh, surface: Surface, options: MeshingOptions, progress: PhaseCallback | None = None) -> Mesh:
     """Return the mesh with edges collapsed until it has no more vertices, or faces, than are wanted.
 
-    The cheapest edge goes first; its cost is the squared distance from the original surface (Garland and Heckbert
-    1997) and the loss of evenness in the embedding. The topology stays, so that a budget may be out of reach.
+    The cheapest edge goes first; its cost is the squared distance from the tangent planes of the points that it stands
+    for (Garland and Heckbert 1997) and the loss of evenness in the embedding. The topology stays, so that a budget may
+    be out of reach.
     """
     budget = _core.MeshBudget()
     if options.vertices is not None:
@@ -28,8 +30,21 @@ def simplify_mesh(mesh: Mesh, options: MeshingOptions, progress: PhaseCallback |
     if options.faces is not None:
         budget.faces = options.faces
     with core_errors_translated():
-        small = _core.simplify_mesh(mesh.vertices_in_unit, mesh.coordinates, mesh.faces, budget, progress)
-    collapsed = len(mesh.vertices_in_unit) - len(small.vertices)
+        small = _core.simplify_mesh(
+            mesh.vertices_in_unit,
+            mesh.coordinates,
+            mesh.faces,
+            surface.points_in_unit,
+            surface.normals,
+            budget,
+            progress,
+        )
+    return simplified(mesh, small)
+
+
+def simplified(mesh: Mesh, small: _core.SimplifiedMesh) -> Mesh:
+    """Return the mesh as the core has simplified it, with the number of edges collapsed so far."""
+    collapsed = len(mesh.vertices_in_unit) - len(small.vertices) + mesh.statistics.get("edges_collapsed", 0)
     return replace(
         mesh,
         vertices_in_unit=small.vertices,

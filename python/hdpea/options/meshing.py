@@ -21,6 +21,11 @@ class MeshingOptions(Checked):
         None, f"vertices wanted; default: one for every {POINTS_PER_VERTEX} points", minimum=4
     )
     faces: int | None = option(None, "faces wanted, instead of `vertices`", minimum=4)
+    error: Length | None = option(
+        None,
+        "make as few triangles as keep within this of the points, both ways, as 0.02 or 0.5%; `vertices` or `faces` "
+        "are then the most there may be",
+    )
     fill_holes: Length | None = option(
         None, "fill holes up to this size across, as 0.02 or 1%; default: 4 times the spacing of the particles; 0: none"
     )
@@ -36,6 +41,8 @@ class MeshingOptions(Checked):
         super().__post_init__()
         if self.vertices is not None and self.faces is not None:
             raise UsageError("Vertices and faces exclude each other.", "Ask for one; the other follows from it.")
+        if self.error is not None and self.error.value == 0:
+            raise UsageError("No mesh of fewer triangles has an `error` of 0.", "Such as 0.5% of the diagonal.")
 
     @property
     def any_size(self) -> bool:

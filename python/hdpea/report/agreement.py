@@ -7,11 +7,11 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from hdpea import _core
 from hdpea.geometry.sampling import sample_surface
 from hdpea.geometry.triangles import mesh_area
+from hdpea.mesh.error_bound import on_patches
 from hdpea.mesh.extraction import Mesh
 from hdpea.options.meshing import POINTS_PER_VERTEX
 from hdpea.surface.surface import Surface, areas_shown
@@ -76,16 +76,5 @@ def agreement_of(mesh: Mesh, surface: Surface, vertices: int) -> Agreement:
     samples = sample_surface(mesh.vertices_in_unit, mesh.faces, SAMPLES).points
     nearest = _core.nearest_neighbors(points, samples, 1)[:, 0]
     far = np.linalg.norm(samples - points[nearest], axis=1) > near[nearest]
-    far[far] = ~_on_patches(samples[far], near[nearest[far]], mesh.patches)
+    far[far] = ~on_patches(samples[far], near[nearest[far]], mesh.patches)
     return Agreement(float(far_points.mean()), float(far.mean()))
-
-
-def _on_patches(
-    samples: NDArray[np.float64], near: NDArray[np.float64], patches: NDArray[np.float64]
-) -> NDArray[np.bool_]:
-    """Return which samples (m, 3) lie nearer than `near` (m,) to patches (k, 3, 3): they may have moved since."""
-    if not len(samples) or not len(patches):
-        return np.zeros(len(samples), dtype=bool)
-    corners = np.arange(3 * len(patches)).reshape(-1, 3)
-    found = _core.closest_surface_points(patches.reshape(-1, 3), corners, samples)
-    return np.asarray(found.distance <= near)

@@ -63,7 +63,8 @@ def coarseness(distances: Distances, diagonal: float, options: MeshingOptions) -
 def missed_targets(mesh: Mesh, facts: MeshFacts, options: MeshingOptions) -> Iterator[str]:
     """Yield a sentence for each wish that the mesh does not meet."""
     excess = Budget.of(options).excess(mesh)
-    if excess:
+    # With an error, the number is the most there may be.
+    if excess > 0 or (excess < 0 and options.error is None):
         yield f"The budget was missed by {abs(excess):.1%}."
     if options.watertight and not facts.closed:
         yield f"The mesh is not watertight: {facts.boundary_loops} boundary loops are left."

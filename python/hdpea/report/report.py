@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from hdpea.options import Options
 from hdpea.options.choice import Choice
 from hdpea.options.settings import as_dict
+from hdpea.report.achieved_error import AchievedError
 from hdpea.report.agreement import Agreement
 from hdpea.runtime.clock import StageClock
 from hdpea.runtime.marks import mark_of
@@ -107,12 +108,15 @@ class Report(Journal):
     mesh: MeshFacts
     distances: Distances
     agreement: Agreement
+    error: AchievedError
 
     @classmethod
-    def of(cls, journal: Journal, mesh: MeshFacts, distances: Distances, agreement: Agreement) -> Report:
+    def of(
+        cls, journal: Journal, mesh: MeshFacts, distances: Distances, agreement: Agreement, error: AchievedError
+    ) -> Report:
         """Close the journal; both go on sharing its lists and its clock."""
         taken_down = {each.name: getattr(journal, each.name) for each in fields(journal)}
-        return cls(**taken_down, mesh=mesh, distances=distances, agreement=agreement)
+        return cls(**taken_down, mesh=mesh, distances=distances, agreement=agreement, error=error)
 
     def begin_with(self, name: str, clock: StageClock) -> None:
         """Put the reading of the input, and what it took, before everything else."""
@@ -132,6 +136,7 @@ class Report(Journal):
             "mesh": asdict(self.mesh),
             "distances": self.distances.as_dict(),
             "agreement": asdict(self.agreement),
+            "error": asdict(self.error),
             "notes": self.notes,
             "missed": self.missed,
             "stages": [asdict(stage) for stage in self.clock.stages],

@@ -6,6 +6,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from hdpea.options.choice import Choice
+from hdpea.report.achieved_error import AchievedError
 from hdpea.report.report import Distances, MeshFacts, Report
 
 
@@ -23,7 +24,7 @@ def summarize(report: Report, where: str, verbose: bool = False) -> str:
 def outcome(report: Report) -> Iterator[str]:
     """Yield what came out, and how good it is; a line each."""
     yield _mesh(report.mesh)
-    yield _distances(report.distances)
+    yield _distances(report.distances) + _error(report.error)
 
 
 def describe(choice: Choice) -> str:
@@ -57,3 +58,10 @@ def _distances(distances: Distances) -> str:
         f"points to mesh: rms {distances.rms:.3g}{spacings}, "
         f"95% within {distances.percentile_95:.3g}, max {distances.max:.3g}"
     )
+
+
+def _error(error: AchievedError) -> str:
+    if error.asked is None:
+        return ""
+    noise = f", after points were moved by up to {error.moved_by_denoising:.3g}" if error.moved_by_denoising else ""
+    return f"; error, both ways: {error.larger:.3g} of {error.asked:.3g} asked for{noise}"

@@ -86,6 +86,15 @@ def areas_shown(points: NDArray[np.float64], neighbors: NDArray[np.int64]) -> ND
     return np.asarray(np.pi * squared_radii / np.maximum(known.sum(axis=1), 1))
 
 
+def disk_radii(points: NDArray[np.float64], neighbors: NDArray[np.int64]) -> NDArray[np.float64]:
+    """Return how far (n,) each of the points (n, 3) shows the surface: to the last of its ``AREA_NEIGHBORS``.
+
+    Of random points, hardly a place is farther than that from the nearest.
+    """
+    known = (neighbors[:, :AREA_NEIGHBORS] >= 0).sum(axis=1)
+    return np.asarray(np.sqrt(areas_shown(points, neighbors) * known / np.pi))
+
+
 def require_surface(points_in_unit: NDArray[np.float64]) -> None:
     """Refuse points (n, 3) that no surface can be made of.
 

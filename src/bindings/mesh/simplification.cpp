@@ -4,7 +4,7 @@
 #include "bindings/bindings.hpp"
 
 void register_simplification(nb::module_& module) {
-  using hdpea::MeshBudget, hdpea::SimplifiedMesh;
+  using hdpea::MeshBudget, hdpea::SimplifiedMesh, hdpea::SimplificationOptions;
   nb::class_<MeshBudget>(module, "MeshBudget", "No more vertices and no more faces than these.")
       .def(nb::init<>())
       .def_rw("vertices", &MeshBudget::vertices)
@@ -18,9 +18,21 @@ void register_simplification(nb::module_& module) {
   module.def(
       "simplify_mesh",
       [](const hdpea::PointsRef& vertices, const hdpea::CoordinatesRef& coordinates, const hdpea::FacesRef& faces,
-         const MeshBudget& budget, const hdpea::Progress& progress) {
-        return hdpea::simplify_mesh(vertices, coordinates, faces, budget, {}, progress);
+         const hdpea::PointsRef& points, const hdpea::PointsRef& normals, const MeshBudget& budget,
+         const hdpea::Progress& progress) {
+        return hdpea::simplify_mesh(vertices, coordinates, faces, points, normals, budget, {}, progress);
       },
-      "vertices"_a, "coordinates"_a, "faces"_a, "budget"_a, "progress"_a = nb::none(), ReleaseGil(),
-      "Collapse edges, the cheapest first, until a mesh is small enough.");
+      "vertices"_a, "coordinates"_a, "faces"_a, "points"_a, "normals"_a, "budget"_a, "progress"_a = nb::none(),
+      ReleaseGil(), "Collapse edges, the cheapest first, until a mesh is small enough.");
+  module.def(
+      "simplify_within",
+      [](const hdpea::PointsRef& vertices, const hdpea::CoordinatesRef& coordinates, const hdpea::FacesRef& faces,
+         const hdpea::PointsRef& points, const hdpea::PointsRef& normals,
+         const Eigen::Ref<const Eigen::VectorXd>& radii, double error, const hdpea::Progress& progress) {
+        return hdpea::simplify_within(vertices, coordinates, faces, points, normals, radii, error,
+                                      SimplificationOptions::within_error(), progress);
+      },
+      "vertices"_a, "coordinates"_a, "faces"_a, "points"_a, "normals"_a, "radii"_a, "error"_a,
+      "progress"_a = nb::none(), ReleaseGil(),
+      "Collapse edges as long as the mesh stays within an error of the points, both ways.");
 }

@@ -1,194 +1,139 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hdpea_cpp/mesh/simplification.hpp"
 
-#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Bounded_normal_change_filter.h>
-#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Edge_length_cost.h>
-#include <CGAL/Surface_mesh_simplification/Policies/Edge_collapse/Midpoint_placement.h>
-#include <CGAL/Surface_mesh_simplification/edge_collapse.h>
-
-#include <Eigen/Dense>
 #include <algorithm>
-#include <cmath>
 #include <utility>
 #include <vector>
 
 #include "hdpea_cpp/base/area_vector.hpp"
 #include "hdpea_cpp/base/checks.hpp"
 #include "hdpea_cpp/base/errors.hpp"
-#include "hdpea_cpp/mesh/cgal_mesh.hpp"
+#include "hdpea_cpp/mesh/edge_collapses.hpp"
 #include "hdpea_cpp/mesh/mesh_check.hpp"
 
 namespace hdpea {
 namespace {
 
-namespace sms = CGAL::Surface_mesh_simplification;
-using Point = Kernel::Point_3;
-using Vertex = SurfaceMesh::Vertex_index;
-
-// Where the planes leave a direction undetermined, the vertex goes to the middle of the edge.
-constexpr double kPull = 1e-3;
-
 constexpr Index kCollapsesPerReport = 100;
 
-/// The part of the given surface that a vertex stands for.
-struct Part {
-  Eigen::Matrix4d quadric = Eigen::Matrix4d::Zero();  ///< of the planes of its faces, weighted by their area
-  double area = 0;                                    ///< in R^d
-  Eigen::VectorXd centroid;                           ///< in R^d
-};
+/// Until all points are within the error, edges are collapsed in at most so many rounds, with so many of splits
+/// between.
+constexpr int kRounds = 4, kSplits = 5;
+/// A point with less than this of the weight of a corner splits the edge across from it.
+constexpr double kNearEdge = 0.15;
 
-Part joined(const Part& a, const Part& b) {
-  const double area = a.area + b.area, share = area > 0 ? b.area / area : 0.5;
-  return {a.quadric + b.quadric, area, a.centroid + share * (b.centroid - a.centroid)};
+Index excess(const EditableMesh& mesh, const MeshBudget& budget) {
+  return std::max(mesh.vertices_left() - budget.vertices, mesh.faces_left() - budget.faces);
 }
 
-/// The growth of the variance of two parts, times their area, when they are joined.
-double variance_growth(const Part& a, const Part& b) {
-  const double area = a.area + b.area;
-  return area > 0 ? a.area * b.area / area * (a.centroid - b.centroid).squaredNorm() : 0;
+SimplifiedMesh arrays_of(const EditableMesh& mesh, const std::vector<SurfacePart>& parts) {
+  TriangleMesh simplified = mesh.mesh();
+  const std::vector<Index> left = mesh.left();
+  Coordinates centroids(simplified.vertices.rows(), parts.empty() ? 0 : parts.front().centroid.size());
+  for (Index row = 0; row < centroids.rows(); ++row) centroids.row(row) = parts[left[row]].centroid.transpose();
+  return {std::move(simplified.vertices), std::move(centroids), std::move(simplified.faces)};
 }
 
-Eigen::Matrix4d plane_quadric(const Eigen::Vector3d& normal, const Eigen::Vector3d& on, double weight) {
-  Eigen::Vector4d plane;
-  plane << normal, -normal.dot(on);
-  return weight * plane * plane.transpose();
+void check_contract(const PointsRef& vertices, const CoordinatesRef& coordinates, const FacesRef& faces,
+                    const PointsRef& points, const PointsRef& normals, const SimplificationOptions& options) {
+  require_rows(coordinates, vertices.rows(), "coordinates");
+  require_finite(coordinates, "coordinates");
+  require_finite(points, "points", kLargestToTheFourth);
+  require_rows(normals, points.rows(), "normals");
+  require_finite(normals, "normals");
+  require(options.evenness >= 0 && options.border >= 0 && options.pull > 0,
+          "evenness and border must be 0 or more, pull positive");
+  const MeshCheck check = check_mesh(vertices, faces);
+  require(check.manifold() && check.oriented(), "simplification needs a manifold, oriented mesh");
 }
 
-double triangle_area(const CoordinatesRef& coordinates, Index a, Index b, Index c) {
-  const Eigen::VectorXd u = coordinates.row(b) - coordinates.row(a), v = coordinates.row(c) - coordinates.row(a);
-  return std::sqrt(std::max(0.0, u.squaredNorm() * v.squaredNorm() - std::pow(u.dot(v), 2))) / 2;
+bool any(const std::vector<Index>& points) {
+  return std::any_of(points.begin(), points.end(), [](Index p) { return p >= 0; });
 }
 
-std::vector<Part> parts_of(const SurfaceMesh& mesh, const PointsRef& vertices, const CoordinatesRef& coordinates,
-                           const FacesRef& faces, double border) {
-  std::vector<Part> parts(static_cast<std::size_t>(vertices.rows()));
-  for (Index v = 0; v < vertices.rows(); ++v) parts[v].centroid = coordinates.row(v).transpose();
-  for (Index f = 0; f < faces.rows(); ++f) {
-    const Eigen::Vector3d a = vertices.row(faces(f, 0)), b = vertices.row(faces(f, 1)), c = vertices.row(faces(f, 2));
+/// Splits each face that a point is too far from, at that point: the face, or its edge where the point lies near that.
+/// The part of a new vertex has a place in R^d, and no extent.
+void split_beyond(EditableMesh& mesh, std::vector<SurfacePart>& parts, const std::vector<Index>& beyond,
+                  const PointsRef& points) {
+  for (Index f = 0; f < static_cast<Index>(beyond.size()); ++f) {
+    if (beyond[f] < 0) continue;
+    const Eigen::Vector3d point = points.row(beyond[f]);
+    const EditableMesh::Corners corners = mesh.corners(f);
+    const Eigen::Vector3d a = mesh.position(corners[0]), b = mesh.position(corners[1]), c = mesh.position(corners[2]);
     const Eigen::Vector3d normal = area_vector(a, b, c);
-    const Eigen::Matrix4d quadric = plane_quadric(normal.normalized(), a, normal.norm() / 6);
-    const double area = triangle_area(coordinates, faces(f, 0), faces(f, 1), faces(f, 2));
-    for (Index v : faces.row(f)) {
-      parts[v].quadric += quadric;
-      parts[v].area += area / 3;
+    Eigen::Vector3d weights(normal.dot(area_vector(point, b, c)), normal.dot(area_vector(a, point, c)),
+                            normal.dot(area_vector(a, b, point)));
+    weights /= normal.squaredNorm();
+    if (!weights.allFinite()) continue;
+    int least;
+    if (weights.minCoeff(&least) < kNearEdge) {
+      mesh.split_edge(corners[(least + 1) % 3], corners[(least + 2) % 3], point);
+    } else {
+      mesh.split(f, point);
     }
+    SurfacePart part;
+    part.centroid = Eigen::VectorXd::Zero(parts[corners[0]].centroid.size());
+    weights = weights.cwiseMax(0) / weights.cwiseMax(0).sum();
+    for (int i = 0; i < 3; ++i) part.centroid += weights[i] * parts[corners[i]].centroid;
+    parts.push_back(part);
   }
-  for (const auto h : mesh.halfedges()) {
-    if (!mesh.is_border(h)) continue;
-    const Index from = mesh.source(h).idx(), to = mesh.target(h).idx();
-    const Index apex = mesh.target(mesh.next(mesh.opposite(h))).idx();
-    const Eigen::Vector3d a = vertices.row(from), along = vertices.row(to).transpose() - a,
-                          inward = vertices.row(apex).transpose() - a;
-    // The plane that holds the edge and stands upright on its face.
-    const Eigen::Vector3d across = along.cross(along.cross(inward)).normalized();
-    const Eigen::Matrix4d quadric = plane_quadric(across, a, border * along.squaredNorm());
-    parts[from].quadric += quadric;
-    parts[to].quadric += quadric;
-  }
-  return parts;
 }
-
-/// Cost and placement of a collapse, as CGAL asks for them. CGAL copies policies: the parts are held elsewhere.
-class LeastLoss {
- public:
-  using Update_tag = CGAL::Tag_true;  // CGAL calls update_after_collapse only if this says so
-
-  LeastLoss(std::vector<Part>& parts, double evenness) : parts_(&parts), evenness_(evenness) {}
-
-  template <class PointMap>
-  void initialize(const SurfaceMesh&, const PointMap&, const Kernel&) const {}
-
-  template <class Profile>
-  void update_after_collapse(const Profile& edge, Vertex kept) const {
-    (*parts_)[kept.idx()] = joined(part(edge.v0()), part(edge.v1()));
-  }
-
-  // CGAL 5 has boost::optional, CGAL 6 std::optional: the types are those of its own policies.
-  template <class Profile, class OptionalPoint>
-  auto operator()(const Profile& edge, const OptionalPoint& placement) const {
-    using OptionalCost = decltype(sms::Edge_length_cost<SurfaceMesh>()(edge, placement));
-    if (!placement) return OptionalCost();
-    const Part &a = part(edge.v0()), &b = part(edge.v1());
-    const Eigen::Vector4d at(placement->x(), placement->y(), placement->z(), 1);
-    const double squared_distance = std::max(0.0, at.dot((a.quadric + b.quadric) * at));
-    return OptionalCost(squared_distance + evenness_ * variance_growth(a, b));
-  }
-
-  template <class Profile>
-  auto operator()(const Profile& edge) const {
-    using OptionalPoint = decltype(sms::Midpoint_placement<SurfaceMesh>()(edge));
-    const Eigen::Matrix4d quadric = part(edge.v0()).quadric + part(edge.v1()).quadric;
-    const Point middle = CGAL::midpoint(edge.p0(), edge.p1());
-    Eigen::Matrix3d matrix = quadric.topLeftCorner<3, 3>();
-    const double pull = kPull * matrix.trace();
-    if (!(pull > 0)) return OptionalPoint(middle);
-    matrix.diagonal().array() += pull;
-    const Eigen::Vector3d right =
-        pull * Eigen::Vector3d(middle.x(), middle.y(), middle.z()) - quadric.topRightCorner<3, 1>();
-    const Eigen::Vector3d best = matrix.ldlt().solve(right);
-    return OptionalPoint(Point(best.x(), best.y(), best.z()));
-  }
-
- private:
-  const Part& part(Vertex v) const { return (*parts_)[v.idx()]; }
-
-  std::vector<Part>* parts_;
-  double evenness_;
-};
-
-/// Stops CGAL when the budget is met; reports the progress.
-class WithinBudget {
- public:
-  WithinBudget(const MeshBudget& budget, const SurfaceMesh& mesh, const Progress& progress)
-      : budget_(budget), progress_(&progress), first_(excess(mesh)) {}
-
-  template <class Cost, class Profile>
-  bool operator()(const Cost&, const Profile& edge, std::size_t, std::size_t) const {
-    const Index left = excess(edge.surface_mesh());
-    if (left <= 0) return true;
-    if (left <= next_) {
-      report(*progress_, 1 - static_cast<double>(left) / static_cast<double>(first_));
-      next_ = left - kCollapsesPerReport;
-    }
-    return false;
-  }
-
- private:
-  Index excess(const SurfaceMesh& mesh) const {
-    return std::max(static_cast<Index>(mesh.number_of_vertices()) - budget_.vertices,
-                    static_cast<Index>(mesh.number_of_faces()) - budget_.faces);
-  }
-
-  MeshBudget budget_;
-  const Progress* progress_;
-  Index first_;
-  mutable Index next_ = first_;  // CGAL asks a const predicate
-};
 
 }  // namespace
 
 SimplifiedMesh simplify_mesh(const PointsRef& vertices, const CoordinatesRef& coordinates, const FacesRef& faces,
-                             const MeshBudget& budget, const SimplificationOptions& options, const Progress& progress) {
-  require_rows(coordinates, vertices.rows(), "coordinates");
-  require_finite(coordinates, "coordinates");
+                             const PointsRef& points, const PointsRef& normals, const MeshBudget& budget,
+                             const SimplificationOptions& options, const Progress& progress) {
   require(budget.vertices >= 0 && budget.faces >= 0, "the budget must be 0 or more vertices and faces");
-  require(options.evenness >= 0 && options.border >= 0, "evenness and border must be 0 or more");
-  const MeshCheck check = check_mesh(vertices, faces);
-  require(check.manifold() && check.oriented(), "simplification needs a manifold, oriented mesh");
-  SurfaceMesh mesh = to_cgal(vertices, faces);
-  std::vector<Part> parts = parts_of(mesh, vertices, coordinates, faces, options.border);
-  const LeastLoss loss(parts, options.evenness);
-  sms::edge_collapse(
-      mesh, WithinBudget(budget, mesh, progress),
-      CGAL::parameters::get_cost(loss).get_placement(loss).filter(sms::Bounded_normal_change_filter<>()));
-  // Vertices are numbered anew when the collapsed ones are thrown out: what belongs to them goes along.
-  const auto old = mesh.add_property_map<Vertex, Vertex>("v:old").first;
-  for (const Vertex v : mesh.vertices()) old[v] = v;
-  TriangleMesh simplified = from_cgal(mesh);
-  Coordinates centroids(simplified.vertices.rows(), coordinates.cols());
-  for (const Vertex v : mesh.vertices()) centroids.row(v.idx()) = parts[old[v].idx()].centroid.transpose();
+  check_contract(vertices, coordinates, faces, points, normals, options);
+  EditableMesh mesh(vertices, faces);
+  std::vector<SurfacePart> parts = parts_of(vertices, coordinates, faces, points, normals, options.border);
+  EdgeCollapses collapses(mesh, parts, {options.evenness, options.pull}, nullptr);
+  const Index first = excess(mesh, budget);
+  Index next = first;
+  for (Index left = first; left > 0; left = excess(mesh, budget)) {
+    if (left <= next) {
+      report(progress, 1 - static_cast<double>(left) / static_cast<double>(first));
+      next = left - kCollapsesPerReport;
+    }
+    if (!collapses.collapse_next()) break;
+  }
   report(progress, 1);
-  return {std::move(simplified.vertices), std::move(centroids), std::move(simplified.faces)};
+  return arrays_of(mesh, parts);
+}
+
+SimplifiedMesh simplify_within(const PointsRef& vertices, const CoordinatesRef& coordinates, const FacesRef& faces,
+                               const PointsRef& points, const PointsRef& normals,
+                               const Eigen::Ref<const Eigen::VectorXd>& radii, double error,
+                               const SimplificationOptions& options, const Progress& progress) {
+  require(error > 0 && points.rows() > 0 && faces.rows() > 0, "the error must be positive, and of points and faces");
+  require_rows(radii, points.rows(), "radii");
+  require_finite(radii, "radii");
+  check_contract(vertices, coordinates, faces, points, normals, options);
+  const DisksRef disks{points, normals, radii};
+  SimplifiedMesh made{vertices, coordinates, faces};
+  for (int round = 0;; ++round) {
+    EditableMesh mesh(made.vertices, made.faces);
+    std::vector<SurfacePart> parts =
+        parts_of(made.vertices, made.coordinates, made.faces, points, normals, options.border);
+    PointLinks links(mesh, disks, error);
+    EdgeCollapses collapses(mesh, parts, {options.evenness, options.pull}, &links);
+    const double first = static_cast<double>(mesh.vertices_left());
+    for (Index done = 0; collapses.collapse_next(); ++done) {
+      if (done % kCollapsesPerReport > 0) continue;
+      report(progress, (round + static_cast<double>(done) / first) / kRounds);
+    }
+    std::vector<Index> beyond = links.farthest_beyond(mesh);
+    if (!any(beyond) || round + 1 == kRounds) {
+      report(progress, 1);
+      return arrays_of(mesh, parts);
+    }
+    for (int splits = 0; any(beyond) && splits < kSplits; ++splits) {
+      split_beyond(mesh, parts, beyond, points);
+      beyond = PointLinks(mesh, disks, error).farthest_beyond(mesh);
+    }
+    made = arrays_of(mesh, parts);
+  }
 }
 
 }  // namespace hdpea

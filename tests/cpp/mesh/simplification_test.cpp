@@ -14,8 +14,10 @@
 namespace hdpea {
 namespace {
 
+const Points kNone(0, 3);
+
 SimplifiedMesh simplified(const shapes::Mesh& mesh, const MeshBudget& budget) {
-  return simplify_mesh(mesh.vertices, mesh.vertices, mesh.faces, budget, {});
+  return simplify_mesh(mesh.vertices, mesh.vertices, mesh.faces, kNone, kNone, budget, {});
 }
 
 double area(const SimplifiedMesh& mesh) {
@@ -82,7 +84,7 @@ TEST(Simplification, SpreadsWhatIsFlatEvenlyInTheEmbedding) {
   const auto grid = shapes::grid(30, 30);
   Coordinates stretched = grid.vertices;
   stretched.col(0) *= 4;
-  const SimplifiedMesh small = simplify_mesh(grid.vertices, stretched, grid.faces, {.vertices = 100}, {});
+  const SimplifiedMesh small = simplify_mesh(grid.vertices, stretched, grid.faces, kNone, kNone, {.vertices = 100}, {});
   Eigen::RowVector3d reach = Eigen::RowVector3d::Zero();
   for (Index f = 0; f < small.faces.rows(); ++f) {
     for (int i = 0; i < 3; ++i) {
@@ -101,20 +103,50 @@ TEST(Simplification, StopsWhereNothingCanBeCollapsed) {
 TEST(Simplification, RefusesBrokenInput) {
   const MeshBudget ten{.vertices = 10};
   auto grid = shapes::grid(4, 4);
-  EXPECT_THROW(simplify_mesh(grid.vertices, Coordinates(3, 8), grid.faces, ten, {}), InvalidArgument);
-  EXPECT_THROW(simplify_mesh(grid.vertices, grid.vertices, grid.faces, ten, {.evenness = -1}), InvalidArgument);
+  EXPECT_THROW(simplify_mesh(grid.vertices, Coordinates(3, 8), grid.faces, kNone, kNone, ten, {}), InvalidArgument);
+  EXPECT_THROW(simplify_mesh(grid.vertices, grid.vertices, grid.faces, kNone, kNone, ten, {.evenness = -1}),
+               InvalidArgument);
   EXPECT_THROW(simplified(grid, {.vertices = -1}), InvalidArgument);
   EXPECT_THROW(simplified(grid, {.faces = std::numeric_limits<Index>::min()}), InvalidArgument);
   Faces outside = grid.faces;
   outside(0, 0) = 25;
-  EXPECT_THROW(simplify_mesh(grid.vertices, grid.vertices, outside, ten, {}), InvalidArgument);
+  EXPECT_THROW(simplify_mesh(grid.vertices, grid.vertices, outside, kNone, kNone, ten, {}), InvalidArgument);
   Faces turned = grid.faces;
   turned.row(0) = turned.row(0).reverse().eval();
-  EXPECT_THROW(simplify_mesh(grid.vertices, grid.vertices, turned, ten, {}), InvalidArgument);
+  EXPECT_THROW(simplify_mesh(grid.vertices, grid.vertices, turned, kNone, kNone, ten, {}), InvalidArgument);
   const auto bow_tie = shapes::make({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}}, {{0, 1, 2}, {0, 3, 4}});
   EXPECT_THROW(simplified(bow_tie, {.vertices = 4}), InvalidArgument);
   grid.vertices(0, 0) = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THROW(simplified(grid, ten), InvalidArgument);
+}
+
+SimplifiedMesh within(const shapes::Mesh& mesh, double error) {
+  const Points normals = mesh.vertices.rowwise().normalized();
+  const Eigen::VectorXd radii = Eigen::VectorXd::Constant(mesh.vertices.rows(), 0.2);
+  return simplify_within(mesh.vertices, mesh.vertices, mesh.faces, mesh.vertices, normals, radii, error, {});
+}
+
+TEST(Simplification, KeepsAnError) {
+  const auto sphere = shapes::sphere(40, 20);
+  Index more = sphere.faces.rows() + 1;
+  for (const double error : {0.01, 0.03, 0.1}) {
+    const SimplifiedMesh small = within(sphere, error);
+    EXPECT_LT(closest_surface_points(small.vertices, small.faces, sphere.vertices).distance.maxCoeff(), error * 1.001);
+    const MeshCheck check = check_mesh(small.vertices, small.faces);
+    EXPECT_TRUE(check.manifold() && check.oriented() && check.closed());
+    EXPECT_LT(small.faces.rows(), more);
+    more = small.faces.rows();
+  }
+}
+
+TEST(Simplification, SplitsFacesUntilTheErrorIsKept) {
+  const auto fine = shapes::sphere(40, 20);
+  const SimplifiedMesh coarse = within(fine, 0.2);
+  const Eigen::VectorXd radii = Eigen::VectorXd::Constant(fine.vertices.rows(), 0.2);
+  const SimplifiedMesh small = simplify_within(coarse.vertices, coarse.vertices, coarse.faces, fine.vertices,
+                                               fine.vertices.rowwise().normalized(), radii, 0.05, {});
+  EXPECT_GT(small.faces.rows(), coarse.faces.rows());
+  EXPECT_LT(closest_surface_points(small.vertices, small.faces, fine.vertices).distance.maxCoeff(), 0.05 * 1.001);
 }
 
 TEST(Simplification, CanBeCancelledHalfway) {
@@ -124,7 +156,9 @@ TEST(Simplification, CanBeCancelledHalfway) {
     seen = fraction;
     return fraction < 0.5;
   };
-  EXPECT_THROW(simplify_mesh(torus.vertices, torus.vertices, torus.faces, {.faces = 601}, {}, stop_halfway), Cancelled);
+  EXPECT_THROW(
+      simplify_mesh(torus.vertices, torus.vertices, torus.faces, kNone, kNone, {.faces = 601}, {}, stop_halfway),
+      Cancelled);
   EXPECT_LT(seen, 0.6);
 }
 

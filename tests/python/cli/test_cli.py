@@ -213,6 +213,8 @@ def test_a_missing_input_is_unreadable(tmp_path: Path, failed: Callable[..., str
         (["--vertices", "many"], "not a valid integer"),
         (["--fill-holes", "wide"], "not a length"),
         (["--fill-holes", "-1%"], "cannot be -1"),
+        (["--error", "small"], "not a length"),
+        (["--error", "0"], "No mesh of fewer triangles has an --error of 0"),
         (["--normals", "guess"], "'guess'"),
         (["--orient", "guess"], "'guess'"),
         (["--orient", "viewpoint"], "no viewpoint"),

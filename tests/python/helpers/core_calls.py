@@ -50,6 +50,10 @@ def _remesh(vertices: NDArray[np.float64], faces: NDArray[np.int64]) -> None:
     _core.remesh_isotropically(vertices, faces, options)
 
 
+def _simplified() -> Arguments:
+    return _mesh() | {"coordinates": VERTICES, "points": POINTS, "normals": NORMALS}
+
+
 def _simplify(**arrays: Any) -> None:
     _core.simplify_mesh(budget=_core.MeshBudget(), **arrays)
 
@@ -92,7 +96,8 @@ CALLS: dict[str, tuple[Callable[..., Any], Arguments]] = {
     ),
     "set_thread_limit": (_core.set_thread_limit, {"count": 1}),
     "sheet_neighbors": (_core.sheet_neighbors, _cloud()),
-    "simplify_mesh": (_simplify, _mesh() | {"coordinates": VERTICES}),
+    "simplify_mesh": (_simplify, _simplified()),
+    "simplify_within": (_core.simplify_within, _simplified() | {"radii": RADII, "error": 0.5}),
     "solve_embedding": (
         _solve,
         {

@@ -16,12 +16,14 @@ from numpy.typing import NDArray
 from hdpea.options import Options
 from hdpea.options.choice import Choice
 from hdpea.reading.cloud import PointCloud
+from hdpea.report.achieved_error import AchievedError
 from hdpea.report.agreement import Agreement
 from hdpea.report.report import Distances, Journal, MeshFacts, Report
 from hdpea.runtime.progress import ProgressCallback, tell
 
 Array = NDArray[np.float64]
 
+NO_ERROR = AchievedError(None, 0.0, 0.0, 0.0)
 ONE_TRIANGLE = MeshFacts(
     3, 1, manifold=True, closed=False, components=1, boundary_loops=1, genus=None, self_intersections=0
 )
@@ -56,7 +58,7 @@ def reconstruct(cloud: PointCloud, options: Options, progress: ProgressCallback 
     journal.choices.append(Choice("vertices", 3, "", "the smallest mesh"))
     if options.meshing.watertight:
         journal.missed.append("The mesh has 1 hole.")
-    report = Report.of(journal, ONE_TRIANGLE, Distances.of(np.zeros(1), spacing=1.0), Agreement(0.0, 0.0))
+    report = Report.of(journal, ONE_TRIANGLE, Distances.of(np.zeros(1), spacing=1.0), Agreement(0.0, 0.0), NO_ERROR)
     return Reconstruction(cloud.points[:3], np.array([[0, 1, 2]]), report)
 
 

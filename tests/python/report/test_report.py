@@ -11,6 +11,7 @@ import pytest
 
 from hdpea.options import Options, ParticleOptions
 from hdpea.options.choice import Choice
+from hdpea.report.achieved_error import AchievedError
 from hdpea.report.agreement import Agreement
 from hdpea.report.report import Distances, Journal, MeshFacts, Report
 from hdpea.report.summary import summarize
@@ -20,8 +21,12 @@ SPHERE = MeshFacts(
 )
 
 
+ERROR = AchievedError(asked=None, points_to_mesh=4.0, mesh_to_points=3.0, moved_by_denoising=0.0)
+
+
 def report_of(journal: Journal, facts: MeshFacts = SPHERE) -> Report:
-    return Report.of(journal, facts, Distances.of(np.array([0.0, 3.0, 4.0]), spacing=0.5), Agreement(0.02, 0.01))
+    distances = Distances.of(np.array([0.0, 3.0, 4.0]), spacing=0.5)
+    return Report.of(journal, facts, distances, Agreement(0.02, 0.01), ERROR)
 
 
 def filled() -> Report:
@@ -49,6 +54,7 @@ def test_everything_is_in_the_file(tmp_path: Path) -> None:
     assert content["meshing"] == {"t3": 10_000}
     assert content["mesh"]["genus"] == 0
     assert content["agreement"] == {"points_without_mesh": 0.02, "area_without_points": 0.01}
+    assert content["error"]["points_to_mesh"] == 4.0
     assert content["notes"] == ["12 points were dropped."]
     assert [stage["name"] for stage in content["stages"]] == ["embedding"]
     assert content["total"]["peak_bytes"] > 0

@@ -1,0 +1,128 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""How far a mesh is from its points, and the smallest mesh that is no farther than an error."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hdpea import _core
+from hdpea.errors import core_errors_translated
+from hdpea.geometry.sampling import sample_surface
+from hdpea.geometry.triangles import mesh_area
+from hdpea.mesh.extraction import Mesh
+from hdpea.mesh.simplification import simplified
+from hdpea.runtime.progress import PhaseCallback
+from hdpea.surface.surface import Surface, disk_radii
+
+PLACES = 40_000
+"""Places of the mesh that are measured, besides its vertices."""
+
+NEAREST = 24
+"""Points near a place of which one must show it: beside a crease most lie on the other side of it."""
+
+TIGHTENED = (1.0, 0.9, 0.75)
+"""Shares of the error that are tried one after the other, since places between those tried may be a little farther."""
+
+ROUNDING = 1 + 1e-6
+
+
+@dataclass(frozen=True)
+class ReachedError:
+    """How far a mesh and its points are apart at most, in the unit frame or in the world.
+
+    Attributes
+    ----------
+    points_to_mesh
+        Largest distance of a point, after any denoising, from the mesh.
+    mesh_to_points
+        Largest distance of a place of the mesh from the disk of one of its nearest points: what lies across the
+        point's normal, as far as its 12th neighbour. Patches of holes do not count.
+    """
+
+    points_to_mesh: float
+    mesh_to_points: float
+
+    @property
+    def larger(self) -> float:
+        """The larger of the two."""
+        return max(self.points_to_mesh, self.mesh_to_points)
+
+    def in_world(self, diagonal: float) -> ReachedError:
+        """Return the same in world units, for a cloud of this diagonal."""
+        return ReachedError(self.points_to_mesh * diagonal, self.mesh_to_points * diagonal)
+
+
+@dataclass(frozen=True)
+class ErrorBound:
+    """An error that a mesh must keep from the points of a surface; lengths in the unit frame."""
+
+    surface: Surface
+    error: float
+
+    @cached_property
+    def radii(self) -> NDArray[np.float64]:
+        """The radii (n,) of the points' disks."""
+        return disk_radii(self.surface.points_in_unit, self.surface.neighbors)
+
+    def reached(self, mesh: Mesh) -> ReachedError:
+        """Measure how far a mesh and the points are apart, whatever the error."""
+        points = self.surface.points_in_unit
+        nearest = _core.closest_surface_points(mesh.vertices_in_unit, mesh.faces, points)
+        return ReachedError(float(nearest.distance.max()), float(self._of_places(mesh).max(initial=0)))
+
+    def kept_by(self, mesh: Mesh) -> bool:
+        """Return whether a mesh keeps the error, but for rounding."""
+        return self.reached(mesh).larger <= self.error * ROUNDING
+
+    def _of_places(self, mesh: Mesh) -> NDArray[np.float64]:
+        """Return the distances of places of a mesh from the disks of their nearest points."""
+        places = mesh.vertices_in_unit
+        if mesh_area(mesh.vertices_in_unit, mesh.faces) > 0:
+            places = np.vstack([places, sample_surface(mesh.vertices_in_unit, mesh.faces, PLACES).points])
+        points = self.surface.points_in_unit
+        nearest = _core.nearest_neighbors(points, places, min(NEAREST, len(points)))
+        offsets = places[:, None] - points[nearest]
+        heights = np.einsum("pkc,pkc->pk", offsets, self.surface.normals[nearest])
+        aside = np.sqrt(np.maximum(np.einsum("pkc,pkc->pk", offsets, offsets) - heights**2, 0))
+        distances = np.hypot(heights, np.maximum(aside - self.radii[nearest], 0)).min(axis=1)
+        return np.asarray(distances[~on_patches(places, distances, mesh.patches)])
+
+
+def on_patches(
+    places: NDArray[np.float64], near: NDArray[np.float64], patches: NDArray[np.float64]
+) -> NDArray[np.bool_]:
+    """Return which places (m, 3) lie nearer than `near` (m,) to patches (k, 3, 3): they may have moved since."""
+    if not len(places) or not len(patches):
+        return np.zeros(len(places), dtype=bool)
+    corners = np.arange(3 * len(patches)).reshape(-1, 3)
+    found = _core.closest_surface_points(patches.reshape(-1, 3), corners, places)
+    return np.asarray(found.distance <= near)
+
+
+def simplify_within(mesh: Mesh, bound: ErrorBound, progress: PhaseCallback | None = None) -> Mesh:
+    """Return the mesh with edges collapsed as long as it keeps an error, both ways.
+
+    Where the result does not quite keep it, a smaller one is tried; what comes nearest to the error is returned.
+    """
+    attempts = list[tuple[float, Mesh]]()
+    with core_errors_translated():
+        for share in TIGHTENED:
+            small = _core.simplify_within(
+                mesh.vertices_in_unit,
+                mesh.coordinates,
+                mesh.faces,
+                bound.surface.points_in_unit,
+                bound.surface.normals,
+                bound.radii,
+                share * bound.error,
+                progress,
+            )
+            made = simplified(mesh, small)
+            attempts.append((bound.reached(made).larger, made))
+            if attempts[-1][0] <= bound.error * ROUNDING:
+                return made
+    return min(attempts, key=lambda attempt: attempt[0])[1]
