@@ -43,6 +43,7 @@ def command(*, sources: tuple[Path, ...], page: Path | None, force: bool) -> Non
     shown in the same coordinates, the second beside the first; meshes are coloured by their distance
     to the first cloud among them. The page is one HTML file that needs nothing else.
     """
+    from hdpea.pages.colorings import COLOR
     from hdpea.pages.page import PAGE_FORMATS, write_page
 
     written = page or Path(gettempdir()) / f"hdpea-{sources[0].stem}.html"
@@ -50,7 +51,8 @@ def command(*, sources: tuple[Path, ...], page: Path | None, force: bool) -> Non
     check_distinct(sources, [written])
     check_replaceable({written: "page"}, force)
     shapes = list(_shapes(sources))
-    write_page(written, ", ".join(each.name for each in sources), shapes, beside=1 if len(shapes) > 1 else None)
+    title, beside = ", ".join(each.name for each in sources), 1 if len(shapes) > 1 else None
+    write_page(written, title, shapes, coloring=COLOR, beside=beside)
     click.echo(f"{written}: {written.stat().st_size / 1e6:.1f} MB", err=True)
     if page is None:
         click.launch(str(written))

@@ -58,4 +58,4 @@ def _points(tensors: CurvatureTensors, most: float, note: str) -> PointShape:
             ": red convex, blue concave." if tensors.signed else "."
         )
         colorings.append(Coloring(name, curvatures, -high if tensors.signed else 0.0, high, told))
-    return PointShape("points", tensors.points[rows], tuple(colorings))
+    return PointShape("points", tensors.points[rows], tensors.normals[rows], tuple(colorings))

@@ -14,6 +14,10 @@ function positionsOf(text) {
 function geometryOf(shape) {
   const geometry = new THREE.BufferGeometry();
   geometry.setAttribute("position", new THREE.BufferAttribute(positionsOf(shape.positions), 3));
+  if (shape.kind === "points") {
+    const normals = new Int8Array(bytesOf(shape.normals).buffer);
+    geometry.setAttribute("normal", new THREE.BufferAttribute(normals, 3, true));
+  }
   if (shape.kind === "mesh") {
     const bytes = bytesOf(shape.faces).buffer;
     const corners = shape.wide ? new Uint32Array(bytes) : new Uint16Array(bytes);

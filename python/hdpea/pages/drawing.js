@@ -23,16 +23,48 @@ function cached(cache, shape, make) {
   return cache.get(shape);
 }
 
+/** Squares of so many pixels, as bright as their surface faces the light: whichever side is out. */
+const pointMaterial = new THREE.ShaderMaterial({
+  vertexColors: true,
+  uniforms: { size: { value: 1 }, plain: { value: null }, colored: { value: 0 } },
+  vertexShader: `
+    uniform float size, colored;
+    uniform vec3 plain;
+    varying vec3 shown;
+    void main() {
+      vec3 facing = normalMatrix * normal;
+      float length = length(facing);
+      float light = length > 0.0 ? abs(dot(facing / length, normalize(vec3(-0.3, 0.5, 1.0)))) : 0.7;
+      shown = mix(plain, color, colored) * (0.45 + 0.6 * light);
+      gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
+      gl_PointSize = size;
+    }`,
+  fragmentShader: "varying vec3 shown; void main() { gl_FragColor = vec4(shown, 1.0); }",
+});
+
+function pointsOf(geometry, coloring) {
+  const material = pointMaterial.clone();
+  const size = Math.max(1.5, Math.min(5, 700 / Math.sqrt(geometry.attributes.position.count)));
+  material.uniforms.size.value = size * renderer.getPixelRatio();
+  material.uniforms.plain.value = new THREE.Color(page.colors.front);
+  material.uniforms.colored.value = coloring ? 1 : 0;
+  return [new THREE.Points(geometry, material)];
+}
+
+/** Points over the mesh that they belong to: small, of a colour of their own. */
+function dotsOf(shape) {
+  const [points] = pointsOf(cached(geometries, shape, geometryOf));
+  points.material.uniforms.size.value = 1.5 * renderer.getPixelRatio();
+  points.material.uniforms.plain.value.set(page.colors.dots);
+  return points;
+}
+
 function objectsOf(shape, coloring, withEdges) {
   if (shape.kind === "ellipsoids") return ellipsoidsOf(shape, coloring);
   const geometry = cached(geometries, shape, geometryOf);
   if (coloring) geometry.setAttribute("color", new THREE.BufferAttribute(colorsOf(coloring), 3, true));
-  const looks = coloring ? { vertexColors: true } : { color: page.colors[shape.kind === "mesh" ? "front" : "dots"] };
-  if (shape.kind === "points") {
-    const size = Math.max(1, Math.min(5, 500 / Math.sqrt(geometry.attributes.position.count)));
-    const material = new THREE.PointsMaterial({ ...looks, size: size * renderer.getPixelRatio(), sizeAttenuation: false });
-    return [new THREE.Points(geometry, material)];
-  }
+  if (shape.kind === "points") return pointsOf(geometry, coloring);
+  const looks = coloring ? { vertexColors: true } : { color: page.colors.front };
   // Edges lie on the faces: these step back a little.
   const solid = { flatShading: true, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1 };
   const sides = [{ ...looks, side: THREE.FrontSide }, { color: page.colors.back, side: THREE.BackSide }];

@@ -68,7 +68,8 @@ def encoded_shape(shape: Shape, box: Box) -> dict[str, Any]:
             axes = text_of((shape.axes / box.size).astype("<f4"))
             return common | {"kind": "ellipsoids", "centres": centres, "axes": axes, "plate": shape.plate / box.size}
         case _:
-            return common | {"kind": "points", "positions": box.encoded(shape.points)}
+            normals = text_of(np.rint(127 * shape.normals.clip(-1, 1)).astype("i1"))
+            return common | {"kind": "points", "positions": box.encoded(shape.points), "normals": normals}
 
 
 def encoded_coloring(coloring: Coloring | OwnColors) -> dict[str, Any]:

@@ -26,7 +26,7 @@ function update() {
   const shown = shapesShown(), colored = shown.map((shape) => shape.colorings.find((each) => each.name === coloring.value));
   show(shown.map((shape, i) => [
     ...objectsOf(shape, colored[i], edgesShown.checked),
-    ...(pointsShown.checked && dots && shape !== dots ? objectsOf(dots) : []),
+    ...(pointsShown.checked && dots && shape !== dots ? [dotsOf(dots)] : []),
   ]));
   edgesShown.parentElement.hidden = !shown.some((shape) => shape.kind === "mesh");
   pointsShown.parentElement.hidden = !dots || shown.every((shape) => shape === dots);

@@ -57,10 +57,11 @@ class MeshShape:
 
 @dataclass(frozen=True)
 class PointShape:
-    """Points (n, 3)."""
+    """Points (n, 3), shaded by their normals (n, 3), of either sign."""
 
     name: str
     points: Rows
+    normals: Rows
     colorings: tuple[Coloring | OwnColors, ...] = ()
 
 

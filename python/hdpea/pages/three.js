@@ -3,6 +3,6 @@
 export {
   AmbientLight, BackSide, BufferAttribute, BufferGeometry, CircleGeometry, Color, ColorManagement, DirectionalLight,
   DoubleSide, FrontSide, Group, InstancedMesh, LinearSRGBColorSpace, LineBasicMaterial, LineSegments, Matrix4, Mesh,
-  MeshLambertMaterial, PerspectiveCamera, Points, PointsMaterial, Scene, SphereGeometry, Vector3, WebGLRenderer,
+  MeshLambertMaterial, PerspectiveCamera, Points, Scene, ShaderMaterial, SphereGeometry, Vector3, WebGLRenderer,
 } from "three";
 export { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from hdpea.pages.colorings import DISTANCE, mesh_shape, point_shape
+from hdpea.pages.colorings import COLOR, mesh_shape, point_shape
 from hdpea.pages.page import write_page
 from hdpea.pages.shapes import Shape
 from hdpea.pictures.camera import mean_sight
@@ -49,7 +49,7 @@ def write_result_page(
         point_shape("points", cloud.points, mesh, cloud.attributes),
     ]
     sight = mean_sight(cloud.points, cloud.sensors())
-    write_page(path, title, shapes, list(_figures(report)), coloring=DISTANCE, sight=sight)
+    write_page(path, title, shapes, list(_figures(report)), coloring=COLOR, sight=sight)
 
 
 def _figures(report: Report) -> Iterator[tuple[str, str]]:
