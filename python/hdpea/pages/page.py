@@ -23,6 +23,9 @@ PAGE_FORMATS = (".html", ".htm")
 
 HERE = Path(__file__).parent
 
+SCRIPTS = ("decoding", "drawing", "objects", "panel")
+"""Which a page contains, in this order."""
+
 Figures = Sequence[tuple[str, str]]
 """What is said about the shapes: names and values."""
 
@@ -85,7 +88,7 @@ def write_page(
         # The only character that could end the script that the data are part of.
         "page": json.dumps(scene, separators=(",", ":")).replace("<", "\\u003c"),
         "three": (HERE / "three.min.js").read_text(encoding="utf-8"),
-        **{name: (HERE / f"{name}.js").read_text(encoding="utf-8") for name in ("decoding", "drawing", "panel")},
+        **{name: (HERE / f"{name}.js").read_text(encoding="utf-8") for name in SCRIPTS},
     }
     with replacing(path) as partial:
         # The title may be the name of a file, which need not be text.

@@ -50,6 +50,8 @@ class NearestSet {
     best_.pop_back();
     return true;
   }
+  /// What nanoflann calls at the end of a search from 1.5 on; sorted() is enough.
+  void sort() {}
   /// The candidates from the best on; no more can be added then.
   const std::vector<Candidate>& sorted() {
     std::sort_heap(best_.begin(), best_.end());
@@ -69,7 +71,7 @@ void search(const Tree& tree, Index count, const double* query, Index excluded, 
   thread_local std::vector<Index> found;
   const Index wanted = std::min<Index>(row.size(), count);
   NearestSet nearest(static_cast<std::size_t>(wanted) + (excluded >= 0 ? 1 : 0));
-  tree.findNeighbors(nearest, query, nanoflann::SearchParams());
+  tree.findNeighbors(nearest, query, {});  // options, whose type has another name from nanoflann 1.5 on
   found.clear();
   for (const auto& [distance, index] : nearest.sorted()) {
     if (index != excluded) found.push_back(index);
