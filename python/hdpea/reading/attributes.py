@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hdpea.reading.cloud import SENSOR_NAMES
+from hdpea.reading.names import plain_name
 
 Attributes = Mapping[str, NDArray[Any]]
 """Arrays (n, ...) by name."""
@@ -28,13 +29,8 @@ CLASS_NAMES = ("classification", "class", "label", "labels")
 LABEL_NAMES = (*CLASS_NAMES, "return_number", "number_of_returns", "returnnumber", "numberofreturns")
 """Told by name, since text files and some programs hold them as floats."""
 
-QUANTITY_NAMES = ("intensity", "reflectance", "amplitude", "infrared", "nir", "alpha")
+QUANTITY_NAMES = ("intensity", "reflectance", "amplitude", "infrared", "nir", "alpha", "scan_angle", "scan_angle_rank")
 """Integers that are measured rather than named."""
-
-
-def plain_name(name: str) -> str:
-    """Return a name without its case and without what CloudCompare puts before those of scalar fields."""
-    return name.lower().removeprefix("scalar_")
 
 
 def is_label(name: str, values: NDArray[Any]) -> bool:

@@ -19,7 +19,7 @@ from hdpea.writing.content import MeshContent
 from hdpea.writing.glb import glb
 from hdpea.writing.marking import marked, save_arrays
 from hdpea.writing.obj import lines, obj, png, write_texture_files
-from hdpea.writing.placement import Placement, loses_digits, placement_file, write_placement
+from hdpea.writing.placement import Placement, loses_digits, write_placement
 
 Points = NDArray[np.float64]
 Faces = NDArray[np.int64]
@@ -72,8 +72,7 @@ def write_mesh(
         write_texture_files(path, texture)
     with replacing(path) as partial:
         partial.write_bytes(content)
-    if placement.is_worth_a_file():
-        write_placement(placement_file(path), placement)
+    write_placement(path, placement)
 
 
 def mesh_content(

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hdpea.geometry.unit_frame import diagonal_of
-from hdpea.runtime.marks import mark_of
+from hdpea.runtime.marks import is_marked, mark_of
 from hdpea.runtime.outputs import replacing
 
 FLOAT32_LOSS = 1e-6
@@ -92,13 +92,17 @@ def placement_file(mesh: Path) -> Path:
     return mesh.with_name(f"{mesh.name}.world.json")
 
 
-def write_placement(path: Path, placement: Placement) -> None:
-    """Write it as JSON.
+def write_placement(mesh: Path, placement: Placement) -> None:
+    """Write where a mesh lies into the JSON file beside it; if there is nothing to say, remove that of an earlier mesh.
 
     Raises
     ------
     UsageError
         If the file cannot be written.
     """
-    with replacing(path) as partial:
-        partial.write_text(json.dumps(placement.as_dict(), indent=2) + "\n")
+    beside = placement_file(mesh)
+    if placement.is_worth_a_file():
+        with replacing(beside) as partial:
+            partial.write_text(json.dumps(placement.as_dict(), indent=2) + "\n")
+    elif beside.is_file() and is_marked(beside, "placement"):
+        beside.unlink()

@@ -73,6 +73,16 @@ def test_a_georeferenced_mesh_is_shifted_and_the_shift_is_told(tmp_path: Path) -
     np.testing.assert_allclose(parse_triangle_mesh(tmp_path / "mesh.glb")[0], vertices, rtol=0, atol=1e-7)
 
 
+def test_a_mesh_that_is_not_shifted_leaves_no_shift_of_an_earlier_one(tmp_path: Path) -> None:
+    written(tmp_path, tetrahedron(size=0.1) + UTM)
+    written(tmp_path, tetrahedron())
+    assert [each.name for each in tmp_path.iterdir()] == ["mesh.glb"]
+    beside = tmp_path / "mesh.glb.world.json"
+    beside.write_text("somebody else's")
+    written(tmp_path, tetrahedron())
+    assert beside.exists()
+
+
 def test_other_formats_say_their_crs_beside_them(tmp_path: Path) -> None:
     write_mesh(tmp_path / "mesh.obj", tetrahedron(), TETRAHEDRON_FACES, crs="EPSG:25832")
     beside = json.loads((tmp_path / "mesh.obj.world.json").read_text())
