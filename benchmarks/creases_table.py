@@ -64,9 +64,7 @@ class Lines:
         starts = np.concatenate([[0], np.cumsum(lengths)])
         rows = np.searchsorted(starts, stops, side="right") - 1
         along = (stops - starts[rows]) / lengths[rows]
-        return cls(
-            ends[rows, 0] + along[:, None] * offsets[rows], offsets[rows] / lengths[rows, None], ends[rows]
-        )
+        return cls(ends[rows, 0] + along[:, None] * offsets[rows], offsets[rows] / lengths[rows, None], ends[rows])
 
     def shown_by(self, others: Lines, spacing: float) -> NDArray[np.bool_]:
         """Tell which places have one of the other edges near and in their direction."""
@@ -119,7 +117,7 @@ def rows(models: list[str], meshes: Path, noise: float, options: Options, save: 
         found = Lines.of(found_mesh, FOUND_DIHEDRAL, spacing / SAMPLES)
         shares = [each.shown_by(other, spacing) for each, other in ((true, found), (found, true))]
         recall, precision = (f"{each.mean():.1%}" if len(each) else "" for each in shares)
-        crease_edges = getattr(result.report.mesh, "crease_edges", "")
+        crease_edges = result.report.meshing["crease_edges"]
         cuts = result.report.mesh.self_intersections
         yield [Path(model).name, recall, precision, str(crease_edges), str(cuts), f"{seconds:.1f}"]
 
@@ -131,9 +129,7 @@ def rows(models: list[str], meshes: Path, noise: float, options: Options, save: 
 @click.option("--normals", default="auto", show_default=True, help="estimate: from the points alone")
 @click.option("--noise", default=0.0, show_default=True, help="standard deviation, in spacings")
 @click.option("--save", type=click.Path(path_type=Path), help="folder for the meshes")
-def main(
-    *, meshes: Path, models: str | None, vertices: int, normals: str, noise: float, save: Path | None
-) -> None:
+def main(*, meshes: Path, models: str | None, vertices: int, normals: str, noise: float, save: Path | None) -> None:
     """Measure the creases of the models in MESHES."""
     wanted = [model for model in SHARP_MODELS + SMOOTH_MODELS if not models or Path(model).name in models.split(",")]
     if save:

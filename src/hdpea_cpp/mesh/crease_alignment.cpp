@@ -4,6 +4,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <tuple>
 #include <vector>
 
@@ -18,38 +19,44 @@ namespace {
 
 using Vector = Eigen::RowVector3d;
 
-/// Creases as seen from places near them.
-class CreaseLines {
- public:
-  explicit CreaseLines(const Creases& creases) : creases_(creases) {
-    across_.resize(creases.positions.rows(), 3);
-    for (Index s = 0; s < across_.rows(); ++s) {
-      across_.row(s) = (creases.first_normals.row(s) - creases.second_normals.row(s)).normalized();
-    }
-  }
+/// Of an edge along a crease: the least angle between its faces and the most to the crease, in degrees, and the
+/// farthest that its middle lies off, in spacings.
+constexpr double kSharp = 30, kTurned = 20, kOff = 0.5;
 
-  Neighbors near(const Points& places) const { return nearest_neighbors(creases_.positions, places, kNearest); }
-  double spacing(Index s) const { return creases_.spacings(s); }
-  Vector direction(Index s) const { return creases_.directions.row(s); }
+double cosine_of(double degrees) { return std::cos(degrees * std::numbers::pi / 180); }
+
+/// Creases as seen from places near them.
+class CreasesNearby {
+ public:
+  explicit CreasesNearby(const Creases& creases) : creases_(creases), positions_(crease_positions(creases.samples)) {}
+
+  Neighbors near(const Points& places) const { return nearest_neighbors(positions_, places, kNearest); }
+  double spacing(Index s) const { return creases_.samples[s].spacing; }
+  Vector direction(Index s) const { return creases_.samples[s].direction.transpose(); }
   /// Signed distance from the plane that halves the angle of the crease.
-  double side(Index s, const Vector& x) const { return across_.row(s).dot(x - creases_.positions.row(s)); }
-  double along(Index s, const Vector& x) const { return direction(s).dot(x - creases_.positions.row(s)); }
-  Vector foot(Index s, const Vector& x) const { return creases_.positions.row(s) + along(s, x) * direction(s); }
+  double side(Index s, const Vector& x) const {
+    const CreaseSample& sample = creases_.samples[s];
+    return (sample.first - sample.second).normalized().dot(offset(s, x));
+  }
+  double along(Index s, const Vector& x) const { return creases_.samples[s].direction.dot(offset(s, x)); }
+  Vector foot(Index s, const Vector& x) const { return positions_.row(s) + along(s, x) * direction(s); }
   double distance(Index s, const Vector& x) const { return (x - foot(s, x)).norm(); }
   /// Whether the sample speaks for this stretch of the crease.
   bool covers(Index s, const Vector& x) const { return std::abs(along(s, x)) <= kStretch * spacing(s); }
-  /// How far a place on one side is from the plane there.
+  /// How far a place is from the nearer of the two planes.
   double height(Index s, const Vector& x) const {
-    const Vector offset = x - creases_.positions.row(s);
-    return std::min(std::abs(creases_.first_normals.row(s).dot(offset)),
-                    std::abs(creases_.second_normals.row(s).dot(offset)));
+    const CreaseSample& sample = creases_.samples[s];
+    return std::min(std::abs(sample.first.dot(offset(s, x))), std::abs(sample.second.dot(offset(s, x))));
   }
 
  private:
   static constexpr Index kNearest = 16;
   static constexpr double kStretch = 0.6;
+
+  Eigen::Vector3d offset(Index s, const Vector& x) const { return x.transpose() - creases_.samples[s].position; }
+
   const Creases& creases_;
-  Points across_;
+  Points positions_;
 };
 
 /// An edge that runs across a crease, by the half-edge of lower index.
@@ -61,7 +68,7 @@ class Alignment {
  public:
   Alignment(const PointsRef& vertices, const FacesRef& faces, const Creases& creases)
       : creases_(creases), lines_(creases), mesh_(faces, vertices.rows()), vertices_(vertices) {
-    held_.assign(static_cast<std::size_t>(vertices.rows()), kFree);
+    held_.assign(static_cast<std::size_t>(vertices.rows()), false);
     lengths_ = mean_lengths();
     near_ = lines_.near(vertices_);
   }
@@ -73,7 +80,7 @@ class Alignment {
       const std::vector<Crossing> crossings = find_crossings();
       for (double most : {0.2, 0.35}) snap(crossings, most);
       flip(crossings);
-      snap(crossings, 0.7);
+      snap(crossings, kFarthest);
       flip_flat_faces();
       if (moved_ + flipped_ == before) break;
     }
@@ -81,7 +88,8 @@ class Alignment {
   }
 
  private:
-  enum Hold : char { kFree, kOnCrease, kAtCorner };
+  /// A vertex moves less than this share of the edges at it.
+  static constexpr double kFarthest = 0.7;
 
   Vector at(Index v) const { return vertices_.row(v); }
 
@@ -98,21 +106,20 @@ class Alignment {
   }
 
   void take_corners() {
-    if (creases_.corners.rows() == 0) return;
-    const Neighbors near = nearest_neighbors(vertices_, creases_.corners, 4);
-    for (Index c = 0; c < creases_.corners.rows(); ++c) {
+    constexpr Index candidates = 4;
+    if (creases_.corners.empty()) return;
+    const Points corners = crease_corners(creases_);
+    const Neighbors near = nearest_neighbors(vertices_, corners, candidates);
+    for (Index c = 0; c < corners.rows(); ++c) {
       for (Index v : near.row(c)) {
-        if (v < 0 || held_[v] != kFree) continue;
-        if ((at(v) - creases_.corners.row(c)).norm() > 0.7 * lengths_(v)) continue;
-        if (move(v, creases_.corners.row(c))) {
-          held_[v] = kAtCorner;
-          break;
-        }
+        if (v < 0 || held_[v]) continue;
+        if ((at(v) - corners.row(c)).norm() > kFarthest * lengths_(v)) continue;
+        if (move(v, corners.row(c))) break;
       }
     }
   }
 
-  /// Moves a vertex unless that would turn a face over or squash it.
+  /// Moves a vertex onto a crease unless that would turn a face over or squash it.
   bool move(Index v, const Vector& to) {
     const Vector from = at(v);
     const std::vector<Index> around = mesh_.faces_around(v);
@@ -121,11 +128,13 @@ class Alignment {
     vertices_.row(v) = to;
     for (std::size_t i = 0; i < around.size(); ++i) {
       const Vector after = area(around[i]);
-      if (after.dot(before[i]) > 0.1 * after.norm() * before[i].norm() && after.norm() > 0.05 * before[i].norm()) continue;
+      if (after.dot(before[i]) > 0.1 * after.norm() * before[i].norm() && after.norm() > 0.05 * before[i].norm())
+        continue;
       vertices_.row(v) = from;
       return false;
     }
     ++moved_;
+    held_[v] = true;
     return true;
   }
 
@@ -136,7 +145,7 @@ class Alignment {
   std::vector<Crossing> find_crossings() const {
     std::vector<Index> edges;
     for (Index h = 0; h < mesh_.halfedges(); ++h) {
-      if (mesh_.opposite(h) > h && held_[mesh_.source(h)] == kFree && held_[mesh_.target(h)] == kFree) {
+      if (mesh_.opposite(h) > h && !held_[mesh_.source(h)] && !held_[mesh_.target(h)]) {
         edges.push_back(h);
       }
     }
@@ -190,8 +199,8 @@ class Alignment {
       const Index h = crossings[c].halfedge;
       // An edge that was flipped is another one by now.
       if (v != mesh_.source(h) && v != mesh_.target(h)) continue;
-      if (held_[mesh_.source(h)] != kFree || held_[mesh_.target(h)] != kFree) continue;
-      if (move(v, nearest_on_crease(v, crossings[c].sample))) held_[v] = kOnCrease;
+      if (held_[mesh_.source(h)] || held_[mesh_.target(h)]) continue;
+      move(v, nearest_on_crease(v, crossings[c].sample));
     }
   }
 
@@ -202,7 +211,8 @@ class Alignment {
     for (Index s : near_.row(v)) {
       if (s < 0 || std::abs(lines_.direction(s).dot(lines_.direction(sample))) < 0.7) continue;
       const double along = std::abs(lines_.along(s, at(v)));
-      if (along >= least || lines_.distance(s, at(v)) > 1.5 * lines_.distance(sample, at(v)) + 0.1 * lines_.spacing(s)) continue;
+      if (along >= least || lines_.distance(s, at(v)) > 1.5 * lines_.distance(sample, at(v)) + 0.1 * lines_.spacing(s))
+        continue;
       best = s;
       least = along;
     }
@@ -213,8 +223,8 @@ class Alignment {
   void flip(const std::vector<Crossing>& crossings) {
     for (const Crossing& each : crossings) {
       const Index h = each.halfedge;
-      if (held_[mesh_.source(h)] != kFree || held_[mesh_.target(h)] != kFree) continue;
-      if (held_[mesh_.apex(h)] == kFree || held_[mesh_.apex(mesh_.opposite(h))] == kFree) continue;
+      if (held_[mesh_.source(h)] || held_[mesh_.target(h)]) continue;
+      if (!held_[mesh_.apex(h)] || !held_[mesh_.apex(mesh_.opposite(h))]) continue;
       flipped_ += flip_safely(h);
     }
   }
@@ -223,7 +233,7 @@ class Alignment {
   void flip_flat_faces() {
     for (Index h = 0; h < mesh_.halfedges(); ++h) {
       const Index a = mesh_.source(h), b = mesh_.target(h), c = mesh_.apex(h);
-      if (held_[a] == kFree || held_[b] == kFree || held_[c] == kFree || mesh_.opposite(h) < 0) continue;
+      if (!held_[a] || !held_[b] || !held_[c] || mesh_.opposite(h) < 0) continue;
       const double length = (at(b) - at(a)).norm();
       if (area(h / 3).norm() > 0.15 * length * length) continue;
       if (length < (at(c) - at(a)).norm() || length < (at(c) - at(b)).norm()) continue;
@@ -243,10 +253,10 @@ class Alignment {
   }
 
   const Creases& creases_;
-  CreaseLines lines_;
+  CreasesNearby lines_;
   FlippableMesh mesh_;
   Points vertices_;
-  std::vector<Hold> held_;
+  std::vector<char> held_;  // whether each vertex lies on a crease
   Eigen::VectorXd lengths_;
   Neighbors near_;  // samples of creases near each vertex as it was
   Index moved_ = 0, flipped_ = 0;
@@ -256,13 +266,45 @@ class Alignment {
 
 AlignedMesh align_to_creases(const PointsRef& vertices, const FacesRef& faces, const Creases& creases) {
   require_mesh(vertices, faces);
-  const Index count = creases.positions.rows();
-  require_finite(creases.positions, "positions");
-  require_rows(creases.directions, count, "directions");
-  require_rows(creases.first_normals, count, "first_normals");
-  require_rows(creases.second_normals, count, "second_normals");
-  if (count == 0 || faces.rows() == 0) return {vertices, faces};
+  if (creases.samples.empty() || faces.rows() == 0) return {vertices, faces};
   return Alignment(vertices, faces, creases).run();
+}
+
+Edges crease_edges(const PointsRef& vertices, const FacesRef& faces, const Creases& creases) {
+  require_mesh(vertices, faces);
+  if (creases.samples.empty() || faces.rows() == 0) return Edges(0, 2);
+  const CreasesNearby nearby(creases);
+  const FlippableMesh mesh(faces, vertices.rows());
+  const auto at = [&](Index v) { return Vector(vertices.row(v)); };
+  const auto normal = [&](Index h) {
+    return area_vector(at(mesh.source(h)), at(mesh.target(h)), at(mesh.apex(h))).normalized();
+  };
+  std::vector<Index> sharp;
+  for (Index h = 0; h < mesh.halfedges(); ++h) {
+    const Index o = mesh.opposite(h);
+    if (o > h && normal(h).dot(normal(o)) < cosine_of(kSharp)) sharp.push_back(h);
+  }
+  Points middles(static_cast<Index>(sharp.size()), 3);
+  for (std::size_t e = 0; e < sharp.size(); ++e) {
+    middles.row(static_cast<Index>(e)) = (at(mesh.source(sharp[e])) + at(mesh.target(sharp[e]))) / 2;
+  }
+  const Neighbors near = nearby.near(middles);
+  std::vector<Index> along;
+  for (std::size_t e = 0; e < sharp.size(); ++e) {
+    const Vector middle = middles.row(static_cast<Index>(e)), edge = at(mesh.target(sharp[e])) - middle;
+    const auto holds = [&](Index s) {
+      return s >= 0 && nearby.covers(s, middle) && nearby.distance(s, middle) <= kOff * nearby.spacing(s) &&
+             std::abs(nearby.direction(s).dot(edge)) >= cosine_of(kTurned) * edge.norm();
+    };
+    if (std::any_of(near.row(static_cast<Index>(e)).begin(), near.row(static_cast<Index>(e)).end(), holds)) {
+      along.push_back(sharp[e]);
+    }
+  }
+  Edges edges(static_cast<Index>(along.size()), 2);
+  for (std::size_t e = 0; e < along.size(); ++e) {
+    edges.row(static_cast<Index>(e)) << mesh.source(along[e]), mesh.target(along[e]);
+  }
+  return edges;
 }
 
 }  // namespace hdpea
