@@ -46,6 +46,8 @@ using namespace nb::literals;
 /// Every long call of the core runs without Python's lock.
 using ReleaseGil = nb::call_guard<nb::gil_scoped_release>;
 
+void register_creases(nb::module_& module);
+void register_crease_alignment(nb::module_& module);
 void register_errors(nb::module_& module);
 void register_farthest_point_sampling(nb::module_& module);
 void register_hole_filling(nb::module_& module);

@@ -4,6 +4,8 @@
 NB_MODULE(_core, module) {
   module.doc() = "The compiled core of hdpea: arrays in, arrays out.";
   register_errors(module);
+  register_creases(module);
+  register_crease_alignment(module);
   register_farthest_point_sampling(module);
   register_hole_filling(module);
   register_intersection_repair(module);

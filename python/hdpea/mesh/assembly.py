@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hdpea.mesh.budget import Budget
+from hdpea.mesh.creases import align_to_creases, find_creases, with_crease_edges_counted
 from hdpea.mesh.error_bound import ErrorBound, simplify_within
 from hdpea.mesh.extraction import Mesh, extract_mesh
 from hdpea.mesh.particles import spread_particles
@@ -60,6 +61,10 @@ def assemble_mesh(
     mesh = _mesh_of_particles(surface, coordinates, bases, options, points_shown, progress, clock)
     with clock.stage("refinement"):
         mesh = refine_mesh(mesh, surface, options.refinement, of_phase(progress, "refinement"))
+        creases = find_creases(surface)
+        if len(creases.positions):
+            mesh = align_to_creases(mesh, creases)
+            mesh = refine_mesh(mesh, surface, options.refinement, of_phase(progress, "refinement"))
     bound = None
     if options.meshing.error is not None:
         bound = ErrorBound(surface, surface.frame.length_to_unit(options.meshing.error))
@@ -69,6 +74,7 @@ def assemble_mesh(
         with clock.stage("simplification"):
             mesh = simplify_mesh(mesh, surface, options.meshing, of_phase(progress, "simplification"))
         with clock.stage("refinement"):
+            mesh = align_to_creases(mesh, creases)
             mesh = refine_mesh(mesh, surface, options.refinement, of_phase(progress, "refinement"))
     with clock.stage("repair"):
         tell(progress, "repair", 0)
@@ -77,7 +83,7 @@ def assemble_mesh(
         if bound is None or bound.kept_by(mended) or not bound.kept_by(mesh):
             mesh = mended
         tell(progress, "repair", 1)
-    return mesh
+    return with_crease_edges_counted(mesh, creases)
 
 
 def _mesh_of_particles(

@@ -22,6 +22,7 @@ VERTICES = np.array([[1.0, 1, 1], [1, -1, -1], [-1, 1, -1], [-1, -1, 1]])
 FACES = np.array([[0, 1, 2], [0, 2, 3], [0, 3, 1], [1, 3, 2]])
 BASES = _core.tangent_bases_across(NORMALS)
 RADII = np.full(COUNT, 0.8)
+CREASES = _core.find_creases(*clouds.box(2000))
 CANDIDATES = _core.restricted_voronoi_candidates(POINTS, BASES, NEIGHBORS, RADII)
 
 
@@ -60,10 +61,12 @@ def _simplify(**arrays: Any) -> None:
 
 CALLS: dict[str, tuple[Callable[..., Any], Arguments]] = {
     "agree_on_signs": (_core.agree_on_signs, _cloud() | {"least_cosine": 0.9}),
+    "align_to_creases": (lambda **arrays: _core.align_to_creases(creases=CREASES, **arrays), _mesh()),
     "blended_normals": (_core.blended_normals, {"normals": NORMALS, "sheet_neighbors": NEIGHBORS}),
     "check_mesh": (_core.check_mesh, _mesh()),
     "closest_surface_points": (_core.closest_surface_points, _mesh() | {"queries": POINTS}),
     "count_self_intersections": (_core.count_self_intersections, _mesh()),
+    "crease_edges": (lambda **arrays: _core.crease_edges(creases=CREASES, **arrays), _mesh()),
     "estimate_curvature": (_core.estimate_curvature, _cloud() | {"radius": 0.5}),
     "estimate_normals": (_core.estimate_normals, {"points": POINTS, "neighbors": NEIGHBORS}),
     "extract_manifold": (
@@ -79,6 +82,7 @@ CALLS: dict[str, tuple[Callable[..., Any], Arguments]] = {
     "face_outwards": (_core.face_outwards, _mesh()),
     "farthest_point_sampling": (_core.farthest_point_sampling, {"points": POINTS, "count": 5}),
     "fill_holes": (_core.fill_holes, {"vertices": VERTICES, "faces": FACES[:3], "max_size": np.inf}),
+    "find_creases": (_core.find_creases, {"points": POINTS, "normals": NORMALS}),
     "fit_jets": (_core.fit_jets, _cloud()),
     "moving_least_squares": (_core.moving_least_squares, _cloud() | {"places": POINTS}),
     "nearest_neighbors": (_core.nearest_neighbors, {"points": POINTS, "queries": VERTICES, "k": 5}),

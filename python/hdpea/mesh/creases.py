@@ -1,0 +1,34 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Edges of the mesh along the sharp edges that the points show."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from hdpea import _core
+from hdpea.errors import core_errors_translated
+from hdpea.mesh.extraction import Mesh
+from hdpea.surface.surface import Surface
+
+
+def find_creases(surface: Surface) -> _core.Creases:
+    """Return the sharp edges, of 40 degrees or more, that the points of a surface show; smooth ones show none."""
+    with core_errors_translated():
+        return _core.find_creases(surface.points_in_unit, surface.normals)
+
+
+def align_to_creases(mesh: Mesh, creases: _core.Creases) -> Mesh:
+    """Return the mesh with vertices moved onto creases and edges flipped, so that no edge runs across a crease.
+
+    A fit to the points keeps them there, as the points of both sides hold them. Manifoldness and topology stay.
+    """
+    with core_errors_translated():
+        aligned = _core.align_to_creases(mesh.vertices_in_unit, mesh.faces, creases)
+    return replace(mesh, vertices_in_unit=aligned.vertices, faces=aligned.faces)
+
+
+def with_crease_edges_counted(mesh: Mesh, creases: _core.Creases) -> Mesh:
+    """Return the mesh with the number of its edges that run along creases among its statistics."""
+    with core_errors_translated():
+        edges = _core.crease_edges(mesh.vertices_in_unit, mesh.faces, creases)
+    return replace(mesh, statistics=mesh.statistics | {"crease_edges": len(edges)})

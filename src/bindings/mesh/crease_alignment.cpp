@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hdpea_cpp/mesh/crease_alignment.hpp"
+
+#include "bindings/bindings.hpp"
+
+void register_crease_alignment(nb::module_& module) {
+  using hdpea::AlignedMesh;
+  nb::class_<AlignedMesh>(module, "AlignedMesh", "A mesh whose edges run along creases.")
+      .def_ro("vertices", &AlignedMesh::vertices, "(v, 3) float64")
+      .def_ro("faces", &AlignedMesh::faces, "(f, 3) int64")
+      .def_ro("moved", &AlignedMesh::moved, "vertices that went onto a crease")
+      .def_ro("flipped", &AlignedMesh::flipped, "edges");
+  module.def("align_to_creases", &hdpea::align_to_creases, "vertices"_a, "faces"_a, "creases"_a, ReleaseGil(),
+             "Move vertices onto creases and flip edges, so that none runs across.");
+  module.def("crease_edges", &hdpea::crease_edges, "vertices"_a, "faces"_a, "creases"_a, ReleaseGil(),
+             "The (k, 2) edges of a mesh that run along creases.");
+}

@@ -1,0 +1,310 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hdpea_cpp/mesh/crease_alignment.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <tuple>
+#include <vector>
+
+#include "hdpea_cpp/base/area_vector.hpp"
+#include "hdpea_cpp/base/checks.hpp"
+#include "hdpea_cpp/base/errors.hpp"
+#include "hdpea_cpp/mesh/flippable_mesh.hpp"
+#include "hdpea_cpp/points/neighbors.hpp"
+
+namespace hdpea {
+namespace {
+
+using Vector = Eigen::RowVector3d;
+
+/// Of an edge along a crease: the least angle between its faces and the most to the crease, in degrees, and the
+/// farthest that its middle lies off, in spacings.
+constexpr double kSharp = 30, kTurned = 20, kOff = 0.5;
+
+double cosine_of(double degrees) { return std::cos(degrees * std::numbers::pi / 180); }
+
+/// Creases as seen from places near them.
+class CreasesNearby {
+ public:
+  explicit CreasesNearby(const Creases& creases) : creases_(creases), positions_(crease_positions(creases.samples)) {}
+
+  Neighbors near(const Points& places) const { return nearest_neighbors(positions_, places, kNearest); }
+  double spacing(Index s) const { return creases_.samples[s].spacing; }
+  Vector direction(Index s) const { return creases_.samples[s].direction.transpose(); }
+  /// Signed distance from the plane that halves the angle of the crease.
+  double side(Index s, const Vector& x) const {
+    const CreaseSample& sample = creases_.samples[s];
+    return (sample.first - sample.second).normalized().dot(offset(s, x));
+  }
+  double along(Index s, const Vector& x) const { return creases_.samples[s].direction.dot(offset(s, x)); }
+  Vector foot(Index s, const Vector& x) const { return positions_.row(s) + along(s, x) * direction(s); }
+  double distance(Index s, const Vector& x) const { return (x - foot(s, x)).norm(); }
+  /// Whether the sample speaks for this stretch of the crease.
+  bool covers(Index s, const Vector& x) const { return std::abs(along(s, x)) <= kStretch * spacing(s); }
+  /// How far a place is from the nearer of the two planes.
+  double height(Index s, const Vector& x) const {
+    const CreaseSample& sample = creases_.samples[s];
+    return std::min(std::abs(sample.first.dot(offset(s, x))), std::abs(sample.second.dot(offset(s, x))));
+  }
+
+ private:
+  static constexpr Index kNearest = 16;
+  static constexpr double kStretch = 0.6;
+
+  Eigen::Vector3d offset(Index s, const Vector& x) const { return x.transpose() - creases_.samples[s].position; }
+
+  const Creases& creases_;
+  Points positions_;
+};
+
+/// An edge that runs across a crease, by the half-edge of lower index.
+struct Crossing {
+  Index halfedge, sample;
+};
+
+class Alignment {
+ public:
+  Alignment(const PointsRef& vertices, const FacesRef& faces, const Creases& creases)
+      : creases_(creases), lines_(creases), mesh_(faces, vertices.rows()), vertices_(vertices) {
+    held_.assign(static_cast<std::size_t>(vertices.rows()), false);
+    lengths_ = mean_lengths();
+    near_ = lines_.near(vertices_);
+  }
+
+  AlignedMesh run() {
+    take_corners();
+    for (int round = 0; round < 4; ++round) {
+      const Index before = moved_ + flipped_;
+      const std::vector<Crossing> crossings = find_crossings();
+      for (double most : {0.2, 0.35}) snap(crossings, most);
+      flip(crossings);
+      snap(crossings, kFarthest);
+      flip_flat_faces();
+      if (moved_ + flipped_ == before) break;
+    }
+    return {vertices_, mesh_.faces(), moved_, flipped_};
+  }
+
+ private:
+  /// A vertex moves less than this share of the edges at it.
+  static constexpr double kFarthest = 0.7;
+
+  Vector at(Index v) const { return vertices_.row(v); }
+
+  Eigen::VectorXd mean_lengths() const {
+    Eigen::VectorXd sums = Eigen::VectorXd::Zero(vertices_.rows()), counts = sums;
+    for (Index h = 0; h < mesh_.halfedges(); ++h) {
+      const double length = (at(mesh_.source(h)) - at(mesh_.target(h))).norm();
+      for (Index v : {mesh_.source(h), mesh_.target(h)}) {
+        sums(v) += length;
+        counts(v) += 1;
+      }
+    }
+    return sums.array() / counts.array().max(1);
+  }
+
+  void take_corners() {
+    constexpr Index candidates = 4;
+    if (creases_.corners.empty()) return;
+    const Points corners = crease_corners(creases_);
+    const Neighbors near = nearest_neighbors(vertices_, corners, candidates);
+    for (Index c = 0; c < corners.rows(); ++c) {
+      for (Index v : near.row(c)) {
+        if (v < 0 || held_[v]) continue;
+        if ((at(v) - corners.row(c)).norm() > kFarthest * lengths_(v)) continue;
+        if (move(v, corners.row(c))) break;
+      }
+    }
+  }
+
+  /// Moves a vertex onto a crease unless that would turn a face over or squash it.
+  bool move(Index v, const Vector& to) {
+    const Vector from = at(v);
+    const std::vector<Index> around = mesh_.faces_around(v);
+    std::vector<Vector> before;
+    for (Index f : around) before.push_back(area(f));
+    vertices_.row(v) = to;
+    for (std::size_t i = 0; i < around.size(); ++i) {
+      const Vector after = area(around[i]);
+      if (after.dot(before[i]) > 0.1 * after.norm() * before[i].norm() && after.norm() > 0.05 * before[i].norm())
+        continue;
+      vertices_.row(v) = from;
+      return false;
+    }
+    ++moved_;
+    held_[v] = true;
+    return true;
+  }
+
+  Vector area(Index f) const {
+    return area_vector(at(mesh_.corner(3 * f)), at(mesh_.corner(3 * f + 1)), at(mesh_.corner(3 * f + 2)));
+  }
+
+  std::vector<Crossing> find_crossings() const {
+    std::vector<Index> edges;
+    for (Index h = 0; h < mesh_.halfedges(); ++h) {
+      if (mesh_.opposite(h) > h && !held_[mesh_.source(h)] && !held_[mesh_.target(h)]) {
+        edges.push_back(h);
+      }
+    }
+    Points middles(static_cast<Index>(edges.size()), 3);
+    for (std::size_t e = 0; e < edges.size(); ++e) {
+      middles.row(static_cast<Index>(e)) = (at(mesh_.source(edges[e])) + at(mesh_.target(edges[e]))) / 2;
+    }
+    const Neighbors near = lines_.near(middles);
+    std::vector<Crossing> crossings;
+    for (std::size_t e = 0; e < edges.size(); ++e) {
+      Index best = -1;
+      double least = 0;
+      for (Index s : near.row(static_cast<Index>(e))) {
+        if (s < 0) continue;
+        const double along = crosses(edges[e], s);
+        if (along < 0 || (best >= 0 && along >= least)) continue;
+        best = s;
+        least = along;
+      }
+      if (best >= 0) crossings.push_back({edges[e], best});
+    }
+    return crossings;
+  }
+
+  /// How far along the crease from the sample an edge crosses it; negative if it does not.
+  double crosses(Index h, Index s) const {
+    const Vector a = at(mesh_.source(h)), b = at(mesh_.target(h));
+    const double side_a = lines_.side(s, a), side_b = lines_.side(s, b);
+    if (side_a * side_b >= 0) return -1;
+    const Vector x = a + (b - a) * (side_a / (side_a - side_b));
+    const double length = (b - a).norm(), spacing = lines_.spacing(s);
+    if (!lines_.covers(s, x) || lines_.distance(s, x) > 0.5 * length + 0.25 * spacing) return -1;
+    if (std::max(lines_.height(s, a), lines_.height(s, b)) > 0.25 * length + 0.25 * spacing) return -1;
+    return std::abs(lines_.along(s, x));
+  }
+
+  /// Moves the nearer ends of edges onto their crease, nearest first, as long as they are nearer than a share of the
+  /// edges there.
+  void snap(const std::vector<Crossing>& crossings, double most) {
+    using Choice = std::tuple<double, Index, Index>;
+    std::vector<Choice> choices;
+    for (std::size_t c = 0; c < crossings.size(); ++c) {
+      const Index h = crossings[c].halfedge;
+      for (Index v : {mesh_.source(h), mesh_.target(h)}) {
+        const double distance = lines_.distance(crossings[c].sample, at(v)) / lengths_(v);
+        if (distance < most) choices.emplace_back(distance, v, static_cast<Index>(c));
+      }
+    }
+    std::sort(choices.begin(), choices.end());
+    for (const auto& [distance, v, c] : choices) {
+      const Index h = crossings[c].halfedge;
+      // An edge that was flipped is another one by now.
+      if (v != mesh_.source(h) && v != mesh_.target(h)) continue;
+      if (held_[mesh_.source(h)] || held_[mesh_.target(h)]) continue;
+      move(v, nearest_on_crease(v, crossings[c].sample));
+    }
+  }
+
+  /// By the sample beside the vertex, if there is one on the same line.
+  Vector nearest_on_crease(Index v, Index sample) const {
+    Index best = sample;
+    double least = std::abs(lines_.along(sample, at(v)));
+    for (Index s : near_.row(v)) {
+      if (s < 0 || std::abs(lines_.direction(s).dot(lines_.direction(sample))) < 0.7) continue;
+      const double along = std::abs(lines_.along(s, at(v)));
+      if (along >= least || lines_.distance(s, at(v)) > 1.5 * lines_.distance(sample, at(v)) + 0.1 * lines_.spacing(s))
+        continue;
+      best = s;
+      least = along;
+    }
+    return lines_.foot(best, at(v));
+  }
+
+  /// Flips edges across a crease whose opposite vertices both lie on it.
+  void flip(const std::vector<Crossing>& crossings) {
+    for (const Crossing& each : crossings) {
+      const Index h = each.halfedge;
+      if (held_[mesh_.source(h)] || held_[mesh_.target(h)]) continue;
+      if (!held_[mesh_.apex(h)] || !held_[mesh_.apex(mesh_.opposite(h))]) continue;
+      flipped_ += flip_safely(h);
+    }
+  }
+
+  /// Flips the longest edges of faces that lie with all corners on one line of a crease.
+  void flip_flat_faces() {
+    for (Index h = 0; h < mesh_.halfedges(); ++h) {
+      const Index a = mesh_.source(h), b = mesh_.target(h), c = mesh_.apex(h);
+      if (!held_[a] || !held_[b] || !held_[c] || mesh_.opposite(h) < 0) continue;
+      const double length = (at(b) - at(a)).norm();
+      if (area(h / 3).norm() > 0.15 * length * length) continue;
+      if (length < (at(c) - at(a)).norm() || length < (at(c) - at(b)).norm()) continue;
+      flipped_ += flip_safely(h);
+    }
+  }
+
+  bool flip_safely(Index h) {
+    const Index o = mesh_.opposite(h);
+    const Index a = mesh_.source(h), b = mesh_.target(h), c = mesh_.apex(h), d = mesh_.apex(o);
+    const Vector before = area(h / 3) + area(o / 3);
+    const double longest = std::max((at(a) - at(b)).squaredNorm(), (at(c) - at(d)).squaredNorm());
+    for (const Vector& after : {Vector(area_vector(at(c), at(a), at(d))), Vector(area_vector(at(d), at(b), at(c)))}) {
+      if (after.dot(before) < 0.1 * after.norm() * before.norm() || after.norm() < 0.02 * longest) return false;
+    }
+    return mesh_.flip(h);
+  }
+
+  const Creases& creases_;
+  CreasesNearby lines_;
+  FlippableMesh mesh_;
+  Points vertices_;
+  std::vector<char> held_;  // whether each vertex lies on a crease
+  Eigen::VectorXd lengths_;
+  Neighbors near_;  // samples of creases near each vertex as it was
+  Index moved_ = 0, flipped_ = 0;
+};
+
+}  // namespace
+
+AlignedMesh align_to_creases(const PointsRef& vertices, const FacesRef& faces, const Creases& creases) {
+  require_mesh(vertices, faces);
+  if (creases.samples.empty() || faces.rows() == 0) return {vertices, faces};
+  return Alignment(vertices, faces, creases).run();
+}
+
+Edges crease_edges(const PointsRef& vertices, const FacesRef& faces, const Creases& creases) {
+  require_mesh(vertices, faces);
+  if (creases.samples.empty() || faces.rows() == 0) return Edges(0, 2);
+  const CreasesNearby nearby(creases);
+  const FlippableMesh mesh(faces, vertices.rows());
+  const auto at = [&](Index v) { return Vector(vertices.row(v)); };
+  const auto normal = [&](Index h) {
+    return area_vector(at(mesh.source(h)), at(mesh.target(h)), at(mesh.apex(h))).normalized();
+  };
+  std::vector<Index> sharp;
+  for (Index h = 0; h < mesh.halfedges(); ++h) {
+    const Index o = mesh.opposite(h);
+    if (o > h && normal(h).dot(normal(o)) < cosine_of(kSharp)) sharp.push_back(h);
+  }
+  Points middles(static_cast<Index>(sharp.size()), 3);
+  for (std::size_t e = 0; e < sharp.size(); ++e) {
+    middles.row(static_cast<Index>(e)) = (at(mesh.source(sharp[e])) + at(mesh.target(sharp[e]))) / 2;
+  }
+  const Neighbors near = nearby.near(middles);
+  std::vector<Index> along;
+  for (std::size_t e = 0; e < sharp.size(); ++e) {
+    const Vector middle = middles.row(static_cast<Index>(e)), edge = at(mesh.target(sharp[e])) - middle;
+    const auto holds = [&](Index s) {
+      return s >= 0 && nearby.covers(s, middle) && nearby.distance(s, middle) <= kOff * nearby.spacing(s) &&
+             std::abs(nearby.direction(s).dot(edge)) >= cosine_of(kTurned) * edge.norm();
+    };
+    if (std::any_of(near.row(static_cast<Index>(e)).begin(), near.row(static_cast<Index>(e)).end(), holds)) {
+      along.push_back(sharp[e]);
+    }
+  }
+  Edges edges(static_cast<Index>(along.size()), 2);
+  for (std::size_t e = 0; e < along.size(); ++e) {
+    edges.row(static_cast<Index>(e)) << mesh.source(along[e]), mesh.target(along[e]);
+  }
+  return edges;
+}
+
+}  // namespace hdpea

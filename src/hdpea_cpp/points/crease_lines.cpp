@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hdpea_cpp/points/crease_lines.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include "hdpea_cpp/base/disjoint_sets.hpp"
+#include "hdpea_cpp/points/neighbors.hpp"
+
+namespace hdpea {
+namespace {
+
+using Vector = Eigen::Vector3d;
+
+/// Thinned samples are apart by half a spacing or a little more.
+constexpr double kStep = 0.5, kMeanStep = 0.6;
+
+double cosine_of(double degrees) { return std::cos(degrees * std::numbers::pi / 180); }
+
+double off_line(const CreaseSample& sample, const Vector& x) {
+  const Vector offset = x - sample.position;
+  return (offset - sample.direction * sample.direction.dot(offset)).norm();
+}
+
+/// Whether both lie on one line between the same two surfaces.
+bool continues(const CreaseSample& one, const CreaseSample& other) {
+  constexpr double most_off = 0.4;
+  static const double least_cosine = cosine_of(25);
+  const auto agree = [&](const Vector& first, const Vector& second) {
+    return one.first.dot(first) > least_cosine && one.second.dot(second) > least_cosine;
+  };
+  return std::abs(one.direction.dot(other.direction)) >= least_cosine &&
+         (agree(other.first, other.second) || agree(other.second, other.first)) &&
+         off_line(one, other.position) < most_off * one.spacing &&
+         off_line(other, one.position) < most_off * one.spacing;
+}
+
+/// Where the lines of two samples meet, if they do near both.
+std::optional<Vector> meeting_point(const CreaseSample& one, const CreaseSample& other) {
+  constexpr double reach = 4, most_apart = 0.35;
+  static const double most_cosine = cosine_of(30);
+  const double cosine = one.direction.dot(other.direction);
+  if (std::abs(cosine) > most_cosine) return std::nullopt;
+  const Vector offset = other.position - one.position;
+  const double along_one = offset.dot(one.direction), along_other = offset.dot(other.direction);
+  const double s = (along_one - cosine * along_other) / (1 - cosine * cosine);
+  const double t = (cosine * along_one - along_other) / (1 - cosine * cosine);
+  const Vector p = one.position + s * one.direction, q = other.position + t * other.direction;
+  if (std::max(std::abs(s), std::abs(t)) > reach * one.spacing) return std::nullopt;
+  if ((p - q).norm() > most_apart * one.spacing) return std::nullopt;
+  return (p + q) / 2;
+}
+
+struct Meeting {
+  Vector position;
+  double reach;  ///< from the two samples, together
+  double spacing;
+};
+
+/// Where lines of samples near each other meet, the nearest to their samples first.
+std::vector<Meeting> meetings(const std::vector<CreaseSample>& samples, const Points& positions) {
+  constexpr Index neighbors = 24;
+  const Neighbors near = nearest_neighbors(positions, neighbors);
+  std::vector<Meeting> found;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    for (Index j : near.row(static_cast<Index>(i))) {
+      if (j < static_cast<Index>(i)) continue;
+      if (const auto point = meeting_point(samples[i], samples[j])) {
+        const double reach = (*point - samples[i].position).norm() + (*point - samples[j].position).norm();
+        found.push_back({*point, reach, samples[i].spacing});
+      }
+    }
+  }
+  std::stable_sort(found.begin(), found.end(),
+                   [](const Meeting& one, const Meeting& other) { return one.reach < other.reach; });
+  return found;
+}
+
+/// One corner for all meetings within a spacing: the mean of those around the first.
+std::vector<Vector> corners_of(const std::vector<Meeting>& found) {
+  std::vector<Vector> corners;
+  for (const Meeting& each : found) {
+    const bool known = std::any_of(corners.begin(), corners.end(), [&](const Vector& corner) {
+      return (corner - each.position).norm() < each.spacing;
+    });
+    if (known) continue;
+    Vector sum = Vector::Zero();
+    int count = 0;
+    for (const Meeting& other : found) {
+      if ((other.position - each.position).norm() > 0.5 * each.spacing) continue;
+      sum += other.position;
+      ++count;
+    }
+    corners.push_back(sum / count);
+  }
+  return corners;
+}
+
+}  // namespace
+
+std::vector<CreaseSample> thinned(std::vector<CreaseSample> samples) {
+  constexpr Index neighbors = 48;
+  constexpr double same_direction = 0.8;
+  if (samples.empty()) return samples;
+  std::stable_sort(samples.begin(), samples.end(),
+                   [](const CreaseSample& one, const CreaseSample& other) { return one.residual < other.residual; });
+  const Neighbors near = nearest_neighbors(crease_positions(samples), neighbors);
+  std::vector<char> dropped(samples.size());
+  std::vector<CreaseSample> kept;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    if (dropped[i]) continue;
+    const CreaseSample& best = samples[i];
+    kept.push_back(best);
+    for (Index j : near.row(static_cast<Index>(i))) {
+      if (j < 0 || (samples[j].position - best.position).norm() > kStep * best.spacing) continue;
+      if (std::abs(samples[j].direction.dot(best.direction)) > same_direction) dropped[j] = true;
+    }
+  }
+  return kept;
+}
+
+std::vector<CreaseSample> on_long_lines(const std::vector<CreaseSample>& samples, double min_length) {
+  constexpr Index neighbors = 12;
+  constexpr double most_apart = 2;
+  if (samples.empty()) return samples;
+  const Neighbors near = nearest_neighbors(crease_positions(samples), neighbors);
+  DisjointSets lines(static_cast<Index>(samples.size()));
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    for (Index j : near.row(static_cast<Index>(i))) {
+      if (j < 0 || (samples[j].position - samples[i].position).norm() > most_apart * samples[i].spacing) continue;
+      if (continues(samples[i], samples[j])) lines.join(static_cast<Index>(i), j);
+    }
+  }
+  std::vector<double> lengths(samples.size(), 0);
+  for (std::size_t i = 0; i < samples.size(); ++i) lengths[lines.find(static_cast<Index>(i))] += kMeanStep;
+  std::vector<CreaseSample> kept;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    if (lengths[lines.find(static_cast<Index>(i))] >= min_length) kept.push_back(samples[i]);
+  }
+  return kept;
+}
+
+std::vector<Vector> join_at_corners(std::vector<CreaseSample>& samples) {
+  constexpr Index neighbors = 32;
+  constexpr double reach = 4.5, most_off = 0.3, same_direction = 0.9;
+  if (samples.empty()) return {};
+  const Points positions = crease_positions(samples);
+  const std::vector<Vector> corners = corners_of(meetings(samples, positions));
+  if (corners.empty()) return corners;
+  const Neighbors near = nearest_neighbors(positions, crease_corners({{}, corners}), neighbors);
+  std::vector<CreaseSample> added;
+  for (std::size_t c = 0; c < corners.size(); ++c) {
+    for (Index i : near.row(static_cast<Index>(c))) {
+      if (i < 0) continue;
+      CreaseSample next = samples[i];
+      const double distance = (next.position - corners[c]).norm();
+      if (distance > reach * next.spacing || off_line(next, corners[c]) > most_off * next.spacing) continue;
+      const Vector away = (next.position - corners[c]) / distance;
+      // Only the end of a line goes on to the corner.
+      const auto nearer = [&](Index j) {
+        if (j < 0 || j == i || std::abs(samples[j].direction.dot(next.direction)) < same_direction) return false;
+        const Vector other = samples[j].position - corners[c];
+        return other.norm() < distance && other.dot(away) > 0.8 * other.norm() && continues(samples[i], samples[j]);
+      };
+      if (std::any_of(near.row(static_cast<Index>(c)).begin(), near.row(static_cast<Index>(c)).end(), nearer)) continue;
+      next.direction = away;
+      for (double step = kStep / 2; step * next.spacing < distance - kStep / 2 * next.spacing; step += kStep) {
+        next.position = corners[c] + step * next.spacing * away;
+        added.push_back(next);
+      }
+    }
+  }
+  samples.insert(samples.end(), added.begin(), added.end());
+  return corners;
+}
+
+}  // namespace hdpea

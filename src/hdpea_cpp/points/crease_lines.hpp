@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Single samples of creases become lines with corners.
+#pragma once
+
+#include <vector>
+
+#include "hdpea_cpp/points/creases.hpp"
+
+namespace hdpea {
+
+/// The best samples, none within half a spacing of another in its direction.
+std::vector<CreaseSample> thinned(std::vector<CreaseSample> samples);
+
+/// Those that follow each other along a line at least `min_length` spacings long; `samples` are thinned.
+std::vector<CreaseSample> on_long_lines(const std::vector<CreaseSample>& samples, double min_length);
+
+/// Finds the corners where lines of different directions end, and adds samples from each end to its corner.
+std::vector<Eigen::Vector3d> join_at_corners(std::vector<CreaseSample>& samples);
+
+}  // namespace hdpea

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hdpea_cpp/points/creases.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include "hdpea_cpp/base/checks.hpp"
+#include "hdpea_cpp/base/errors.hpp"
+#include "hdpea_cpp/base/parallel.hpp"
+#include "hdpea_cpp/points/crease_lines.hpp"
+#include "hdpea_cpp/points/neighbors.hpp"
+#include "hdpea_cpp/points/wedge.hpp"
+
+namespace hdpea {
+namespace {
+
+using Vector = Eigen::Vector3d;
+using Found = std::vector<std::optional<CreaseSample>>;
+
+/// Nearest points that the spacing is told from.
+constexpr int kOfSpacing = 12;
+
+double cosine_of(double degrees) { return std::cos(degrees * std::numbers::pi / 180); }
+
+class Search {
+ public:
+  Search(const PointsRef& points, const PointsRef& normals, const CreaseOptions& options)
+      : points_(points), normals_(normals), options_(options) {}
+
+  /// Around points near which normals differ. Around some of them the wedge lies to one side, and fits less well.
+  std::vector<CreaseSample> around_points() const {
+    const double smooth = cosine_of(25), other_wall = -0.7, lenience = 2;
+    const Neighbors near = nearest_neighbors(points_, points_, options_.neighbors);
+    Found found(static_cast<std::size_t>(points_.rows()));
+    parallel_for(points_.rows(), [&](Index i) {
+      const Neighborhood around = neighborhood(points_.row(i), normals_.row(i), other_wall, near.row(i));
+      if (around.points.empty()) return;
+      const auto [first, second] = extreme_normals(around);
+      if (first.dot(second) <= smooth) found[i] = sample(around, first, second, lenience * options_.max_residual);
+    });
+    return gathered(found);
+  }
+
+  /// Around the places that were found.
+  std::vector<CreaseSample> around_samples(const std::vector<CreaseSample>& samples) const {
+    const double other_wall = -0.2;
+    if (samples.empty()) return {};
+    const Neighbors near = nearest_neighbors(points_, crease_positions(samples), options_.neighbors);
+    Found found(samples.size());
+    parallel_for(static_cast<Index>(samples.size()), [&](Index i) {
+      const CreaseSample& old = samples[i];
+      const Vector facing = (old.first + old.second).normalized();
+      found[i] = sample(neighborhood(old.position, facing, other_wall, near.row(i)), old.first, old.second,
+                        options_.max_residual);
+    });
+    return gathered(found);
+  }
+
+ private:
+  /// Of the nearest points those whose normal does not face the other way.
+  template <class Row>
+  Neighborhood neighborhood(const Vector& centre, const Vector& facing, double least_cosine, const Row& row) const {
+    Neighborhood around{{}, {}, centre, 0};
+    double radius = 0;
+    int count = 0;
+    for (Index j : row) {
+      if (j < 0) break;
+      const Vector point = points_.row(j), normal = normals_.row(j);
+      if (++count <= kOfSpacing) radius = (point - centre).norm();
+      if (normal.dot(facing) < least_cosine) continue;
+      around.points.push_back(point);
+      around.normals.push_back(normal);
+    }
+    around.spacing = radius * std::sqrt(std::numbers::pi / kOfSpacing);
+    return around;
+  }
+
+  std::optional<CreaseSample> sample(const Neighborhood& around, const Vector& first, const Vector& second,
+                                     double share) const {
+    constexpr std::size_t least_points = 10;
+    constexpr double reach = 2.5;
+    if (around.points.size() < least_points || !std::isnormal(around.spacing)) return std::nullopt;
+    const auto wedge = fit_wedge(around, first, second);
+    if (!wedge || !(wedge->first.dot(wedge->second) <= cosine_of(options_.min_angle))) return std::nullopt;
+    if (!((wedge->position - around.centre).norm() <= reach * around.spacing)) return std::nullopt;
+    const double smooth = quadric_residual(around, (wedge->first + wedge->second).normalized());
+    if (!(wedge->residual <= share * smooth)) return std::nullopt;
+    return CreaseSample{wedge->position, wedge->direction, wedge->first,
+                        wedge->second,   around.spacing,   wedge->residual};
+  }
+
+  static std::vector<CreaseSample> gathered(const Found& found) {
+    std::vector<CreaseSample> samples;
+    for (const auto& each : found) {
+      if (each) samples.push_back(*each);
+    }
+    return samples;
+  }
+
+  const PointsRef& points_;
+  const PointsRef& normals_;
+  const CreaseOptions& options_;
+};
+
+}  // namespace
+
+Creases find_creases(const PointsRef& points, const PointsRef& normals, const CreaseOptions& options) {
+  constexpr int rounds = 2;
+  require_finite(points, "points");
+  require_rows(normals, points.rows(), "normals");
+  require_finite(normals, "normals");
+  require(options.neighbors >= kOfSpacing, "a crease needs 12 neighbors or more");
+  const Search search(points, normals, options);
+  std::vector<CreaseSample> samples = search.around_points();
+  for (int round = 0; round < rounds; ++round) samples = search.around_samples(samples);
+  samples = on_long_lines(thinned(samples), options.min_length);
+  std::vector<Vector> corners = join_at_corners(samples);
+  return {std::move(samples), std::move(corners)};
+}
+
+Points crease_positions(const std::vector<CreaseSample>& samples) {
+  Points positions(samples.size(), 3);
+  for (std::size_t i = 0; i < samples.size(); ++i) positions.row(i) = samples[i].position;
+  return positions;
+}
+
+Points crease_corners(const Creases& creases) {
+  Points corners(creases.corners.size(), 3);
+  for (std::size_t c = 0; c < creases.corners.size(); ++c) corners.row(c) = creases.corners[c];
+  return corners;
+}
+
+}  // namespace hdpea

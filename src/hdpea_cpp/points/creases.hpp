@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <vector>
+
+#include "hdpea_cpp/base/types.hpp"
+
+namespace hdpea {
+
+/// What counts as a crease. Spacings are local: the square root of the area per point.
+struct CreaseOptions {
+  Index neighbors = 32;       ///< points that two half-planes are fitted to
+  double min_angle = 40;      ///< degrees between their normals
+  double max_residual = 0.3;  ///< variance off the half-planes, as a share of that off a quadratic surface
+  double min_length = 8;      ///< of a line of creases, in spacings
+};
+
+/// A place on a crease.
+struct CreaseSample {
+  Eigen::Vector3d position;
+  Eigen::Vector3d direction;      ///< unit, along the crease, of either sign
+  Eigen::Vector3d first, second;  ///< unit normals of the planes on its two sides, on the side of those of the points
+  double spacing;                 ///< of the points there
+  double residual;                ///< variance of the points off the planes, in squared spacings
+};
+
+/// Sharp edges that points show.
+struct Creases {
+  std::vector<CreaseSample> samples;     ///< about two to a spacing along every crease
+  std::vector<Eigen::Vector3d> corners;  ///< where creases of several directions meet
+};
+
+/// Finds the sharp edges that points show.
+///
+/// Around a point near which normals differ, two half-planes that meet in a line (a wedge) are fitted to the nearest
+/// points, and once more around the line. They are a crease where they fit far better than a smooth quadratic surface:
+/// noise is as far off the one as off the other, and a bend wider than the points are apart is farther off the wedge.
+/// Normals are where the fit begins; they may be smeared across the crease, as estimated ones are. Samples count only
+/// where they follow each other along a line of some length. Where such lines end and meet is a corner, and the lines
+/// go on up to it.
+///
+/// @param points   (n, 3), n >= 1
+/// @param normals  (n, 3) unit, consistently oriented
+/// @throws InvalidArgument on a broken contract
+Creases find_creases(const PointsRef& points, const PointsRef& normals, const CreaseOptions& options = {});
+
+/// (m, 3)
+Points crease_positions(const std::vector<CreaseSample>& samples);
+
+/// (c, 3)
+Points crease_corners(const Creases& creases);
+
+}  // namespace hdpea

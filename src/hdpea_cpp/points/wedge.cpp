@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hdpea_cpp/points/wedge.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+namespace hdpea {
+namespace {
+
+using Vector = Eigen::Vector3d;
+
+/// Unknowns of two planes, and of a quadratic height field.
+constexpr double kUnknowns = 6;
+
+struct Plane {
+  Vector centre, normal;
+};
+
+double variance(double squares, std::size_t count) {
+  return squares / std::max(static_cast<double>(count) - kUnknowns, 1.0);
+}
+
+/// The plane of the points of one side, by least squares. Normals count a little: points on a line leave it open.
+std::optional<Plane> fit_plane(const Neighborhood& around, const std::vector<char>& sides, char side) {
+  constexpr double normal_weight = 0.05;
+  constexpr int least_points = 5;
+  Vector sum = Vector::Zero(), normal_sum = Vector::Zero();
+  Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
+  int count = 0;
+  for (std::size_t i = 0; i < sides.size(); ++i) {
+    if (sides[i] != side) continue;
+    const Vector x = (around.points[i] - around.centre) / around.spacing;
+    const Vector& n = around.normals[i];
+    sum += x;
+    normal_sum += n;
+    squares += x * x.transpose() - normal_weight * n * n.transpose();
+    ++count;
+  }
+  if (count < least_points) return std::nullopt;
+  const Vector mean = sum / count;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(squares - count * mean * mean.transpose());
+  const Vector normal = solver.eigenvectors().col(0);
+  return Plane{around.centre + around.spacing * mean, normal.dot(normal_sum) < 0 ? Vector(-normal) : normal};
+}
+
+/// The point on both planes that is nearest to a place, and the direction of their line.
+std::optional<std::pair<Vector, Vector>> intersection(const Plane& one, const Plane& other, const Vector& place) {
+  constexpr double least_sine = 0.3;
+  const Vector across = one.normal.cross(other.normal);
+  const double sine = across.norm();
+  if (!(sine >= least_sine)) return std::nullopt;
+  const Vector direction = across / sine;
+  Eigen::Matrix3d rows;
+  rows << one.normal.transpose(), other.normal.transpose(), direction.transpose();
+  const Vector right(one.normal.dot(one.centre - place), other.normal.dot(other.centre - place), 0);
+  return std::pair{Vector(place + rows.inverse() * right), direction};
+}
+
+}  // namespace
+
+std::pair<Vector, Vector> extreme_normals(const Neighborhood& around) {
+  const auto farthest = [&](const Vector& from) {
+    return *std::min_element(around.normals.begin(), around.normals.end(),
+                             [&](const Vector& m, const Vector& n) { return m.dot(from) < n.dot(from); });
+  };
+  Vector sum = Vector::Zero();
+  for (const Vector& n : around.normals) sum += n;
+  const Vector first = farthest(sum);
+  return {first, farthest(first)};
+}
+
+std::optional<Wedge> fit_wedge(const Neighborhood& around, const Vector& first, const Vector& second) {
+  constexpr int rounds = 10;
+  const std::size_t count = around.points.size();
+  std::vector<char> sides(count);
+  for (std::size_t i = 0; i < count; ++i) sides[i] = around.normals[i].dot(first - second) > 0;
+  std::optional<Plane> one, other;
+  Wedge wedge;
+  for (int round = 0; round < rounds; ++round) {
+    one = fit_plane(around, sides, true);
+    other = fit_plane(around, sides, false);
+    if (!one || !other) return std::nullopt;
+    const auto line = intersection(*one, *other, around.centre);
+    if (!line) return std::nullopt;
+    wedge = {line->first, line->second, one->normal, other->normal, 0};
+    // The plane that halves the angle divides the points; which side is whose, the points of each tell.
+    Vector across = one->normal - other->normal;
+    if (across.dot(one->centre - other->centre) < 0) across = -across;
+    const std::vector<char> before = sides;
+    for (std::size_t i = 0; i < count; ++i) sides[i] = across.dot(around.points[i] - wedge.position) > 0;
+    if (sides == before) break;
+  }
+  double squares = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Plane& plane = sides[i] ? *one : *other;
+    const double height = plane.normal.dot(around.points[i] - plane.centre) / around.spacing;
+    squares += height * height;
+  }
+  wedge.residual = variance(squares, count);
+  return wedge;
+}
+
+double quadric_residual(const Neighborhood& around, const Vector& axis) {
+  const Index count = static_cast<Index>(around.points.size());
+  const Vector u = axis.unitOrthogonal(), v = axis.cross(u);
+  Eigen::Matrix<double, Eigen::Dynamic, 6> design(count, 6);
+  Eigen::VectorXd heights(count);
+  for (Index i = 0; i < count; ++i) {
+    const Vector x = (around.points[i] - around.centre) / around.spacing;
+    const double a = u.dot(x), b = v.dot(x);
+    design.row(i) << 1, a, b, a * a, a * b, b * b;
+    heights(i) = axis.dot(x);
+  }
+  const Eigen::Matrix<double, 6, 1> fit = design.householderQr().solve(heights);
+  double squares = 0;
+  for (Index i = 0; i < count; ++i) {
+    const double a = design(i, 1), b = design(i, 2), height = heights(i) - design.row(i).dot(fit);
+    const double slope_a = fit(1) + 2 * fit(3) * a + fit(4) * b, slope_b = fit(2) + fit(4) * a + 2 * fit(5) * b;
+    // Across the surface, which is less than along the axis where it is steep.
+    squares += height * height / (1 + slope_a * slope_a + slope_b * slope_b);
+  }
+  return variance(squares, around.points.size());
+}
+
+}  // namespace hdpea

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "hdpea_cpp/base/types.hpp"
+
+namespace hdpea {
+
+/// Points around a place, with their normals.
+struct Neighborhood {
+  std::vector<Eigen::Vector3d> points, normals;
+  Eigen::Vector3d centre;
+  double spacing;  ///< of the points, > 0
+};
+
+/// Two half-planes that meet in a line, the crease.
+struct Wedge {
+  Eigen::Vector3d position;       ///< of the line, nearest to the centre of the neighbourhood
+  Eigen::Vector3d direction;      ///< of the line, unit
+  Eigen::Vector3d first, second;  ///< unit normals of the planes, on the side of those of the points
+  double residual;                ///< variance of the points off their half-planes, in squared spacings
+};
+
+/// The two normals that differ most.
+std::pair<Eigen::Vector3d, Eigen::Vector3d> extreme_normals(const Neighborhood& around);
+
+/// Fits a wedge: points are assigned to half-planes and planes to points, in turn, as in k-means.
+///
+/// @param first, second  unit normals to begin with: points belong to the one that theirs is nearer to
+/// @returns nothing if a plane has fewer than 5 points, or the planes differ by less than about 17 degrees
+std::optional<Wedge> fit_wedge(const Neighborhood& around, const Eigen::Vector3d& first, const Eigen::Vector3d& second);
+
+/// The variance of points off the quadratic height field that fits them best, over the plane across an axis, in squared
+/// spacings: what it takes to call them smooth.
+double quadric_residual(const Neighborhood& around, const Eigen::Vector3d& axis);
+
+}  // namespace hdpea
