@@ -17,10 +17,10 @@ import numpy as np
 
 from hdpea.dataset.discovery import find_meshes
 from hdpea.dataset.surface_file import read_surface
+from hdpea.frontend.roughness import roughness_of
 from hdpea.geometry.sampling import sample_surface
 from hdpea.geometry.unit_frame import UnitFrame
 from hdpea.options.denoising import ROUGH
-from hdpea.surface.roughness import roughness_of
 
 NOISE = (0.0, 0.0005, 0.001, 0.003, 0.005)
 

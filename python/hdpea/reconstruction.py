@@ -28,8 +28,7 @@ from hdpea.reading.attributes import split_colors
 from hdpea.reading.cloud import PointCloud, cleaned_cloud
 from hdpea.reading.objects import PointsLike
 from hdpea.report.achieved_error import achieved_error
-from hdpea.report.agreement import agreement_of
-from hdpea.report.measurement import coarseness, distances_to, mesh_facts, missed_targets
+from hdpea.report.measurement import coarseness, compare, mesh_facts, missed_targets
 from hdpea.report.report import Journal, Report
 from hdpea.runtime.clock import StageClock
 from hdpea.runtime.progress import ProgressCallback, tell
@@ -255,11 +254,10 @@ def reconstruct(
         with clock.stage("measuring"):
             tell(progress, "measuring", 0)
             facts = mesh_facts(mesh)
-            distances = distances_to(mesh, prepared.oriented.surface)
             error_reached = achieved_error(mesh, surface, prepared.oriented.surface, options.meshing.error)
             free = options.meshing.error is not None
             wanted = len(mesh.vertices_in_unit) if free else options.vertices_of(found.points_shown)
-            agreement = agreement_of(mesh, surface, wanted)
+            distances, agreement = compare(mesh, prepared, wanted)
             tell(progress, "measuring", 1)
     journal.source["format"] = cloud.format
     if cloud.crs is not None:
@@ -269,7 +267,8 @@ def reconstruct(
     journal.meshing |= mesh.statistics
     journal.notes += [*cloud.notes, *found.notes, *prepared.notes, *faced.notes]
     journal.notes += coarseness(distances, surface.frame.diagonal, options.meshing)
-    journal.missed += [*missed_targets(mesh, facts, options.meshing), *error_reached.missed(), *agreement.missed()]
+    journal.missed += [*prepared.missed, *missed_targets(mesh, facts, options.meshing)]
+    journal.missed += [*error_reached.missed(), *agreement.missed()]
     vertices_in_world = surface.frame.to_world(mesh.vertices_in_unit)
     report = Report.of(journal, facts, distances, agreement, error_reached)
     return Reconstruction(vertices_in_world, mesh.faces, report, found.dropped, carried, cloud.crs, texture_of_points)

@@ -21,6 +21,7 @@ from hdpea.curvature.tensors import CurvatureTensors, Estimate
 from hdpea.embedding import embed_surface
 from hdpea.errors import core_errors_translated
 from hdpea.frontend.cleaning import surface_cloud
+from hdpea.frontend.roughness import roughness_of
 from hdpea.geometry.metric import Metric
 from hdpea.geometry.tensors import metric_tensors
 from hdpea.geometry.thinning import thinned
@@ -34,7 +35,6 @@ from hdpea.runtime.threads import limited_threads
 from hdpea.surface.normals import ORIENTATION_NEIGHBORS
 from hdpea.surface.plausibility import are_normals
 from hdpea.surface.preparation import prepare_surface
-from hdpea.surface.roughness import roughness_of
 from hdpea.surface.surface import Surface
 
 

@@ -36,6 +36,7 @@ class Classified:
 
     strays: NDArray[np.bool_]
     kept: NDArray[np.bool_]
+    stands_for: NDArray[np.int64]
     spacing: NDArray[np.float64]
     on_lines: float
 
@@ -60,14 +61,14 @@ def classify(points: ArrayLike) -> Classified:
     rows = np.ascontiguousarray(points, dtype=np.float64)
     if len(rows) < FEWEST_POINTS:
         nothing = np.zeros(len(rows), dtype=bool)
-        return Classified(nothing, ~nothing, np.zeros(len(rows)), 0.0)
+        return Classified(nothing, ~nothing, np.arange(len(rows)), np.zeros(len(rows)), 0.0)
     # Differences of large coordinates lose digits, so the origin comes to the cloud first.
     centered = rows - np.median(rows, axis=0)
     with core_errors_translated():
         nearest = _core.nearest_neighbors(centered, NEIGHBORS)
         sampling = sampling_of(centered, nearest)
         strays = _strays_of(centered, nearest, sampling)
-    return Classified(strays, sampling.kept & ~strays, sampling.spacing, sampling.on_lines)
+    return Classified(strays, sampling.kept & ~strays, sampling.stands_for, sampling.spacing, sampling.on_lines)
 
 
 def _strays_of(points: NDArray[np.float64], nearest: NDArray[np.int64], sampling: Sampling) -> NDArray[np.bool_]:
@@ -77,5 +78,6 @@ def _strays_of(points: NDArray[np.float64], nearest: NDArray[np.int64], sampling
         return find_strays(points, nearest, on_lines)
     # On lines nearly everything lies apart from the rest, until they are thinned.
     kept = np.ascontiguousarray(points[sampling.kept])
-    strays = find_strays(kept, _core.nearest_neighbors(kept, NEIGHBORS), on_lines)
-    return strays[_core.nearest_neighbors(kept, points, 1)[:, 0]]
+    strays = np.zeros(len(points), dtype=bool)
+    strays[sampling.kept] = find_strays(kept, _core.nearest_neighbors(kept, NEIGHBORS), on_lines)
+    return strays[sampling.stands_for]

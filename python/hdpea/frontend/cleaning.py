@@ -99,8 +99,7 @@ def surface_cloud(cloud: PointCloud, options: CleaningOptions | None = None) -> 
     on_surface = left
     if (reasons == ON_LINES).any():
         on_surface = cloud.at(np.flatnonzero(~found.strays))
-        with core_errors_translated():
-            left = replace(left, points=crowd_means(cloud.points, found.kept, found.strays))
+        left = replace(left, points=crowd_means(cloud.points, found.kept, found.stands_for))
     dropped = DroppedPoints(cloud.points[gone], reasons)
     return SurfaceCloud(left, on_surface, found.shown, spacing, dropped, (*notes, *_notes(found)))
 

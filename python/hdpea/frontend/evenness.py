@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hdpea import _core
+from hdpea.frontend.crowds import FEWEST, STEP, crowds_lie_across, nearest_kept, quiet_count
 from hdpea.geometry.thinning import farthest_rows
 
 NEAR, FAR = 3, 24
@@ -25,14 +26,8 @@ Of the points of 16 surfaces 0.3 % at most fell below, of rings 65 to 93 % (24 n
 LEAST_SHARE = 0.1
 """Least share of points on lines that makes a cloud uneven."""
 
-STEP = 2**0.5
-"""Ratio of the numbers of points from level to level."""
-
 SURROUNDING = 10
 """Nearest points of a level whose disk tells how much surface each of them has for itself."""
-
-FEWEST = 200
-"""Points of the coarsest level: fewer say more about the shape than about its sampling."""
 
 COVERED = 2.5
 """Area for each point, in squares of their least distance, under which a level covers the surface in all directions.
@@ -44,11 +39,6 @@ KEPT_DETAIL = 7.0
 
 Fewer lose detail, more are lines again: means of eight raw scans of rings, rms in 1e-3 of the diagonal, were 2.3, 2.1,
 1.9, 2.0 for 3.5, 5, 7 and 10, and 4.7 with all points kept."""
-
-MOSTLY = 0.5
-"""Share of a crowd that lies rather across the surface than along it, from which on it is noise.
-
-It is 0.87 to 1.0 where scans are repeated along the same rays, 0.03 to 0.17 on the rings of seven shapes."""
 
 
 @dataclass(frozen=True)
@@ -62,12 +52,15 @@ class Sampling:
         for itself once the points on lines are no nearer to each other than the lines are.
     kept
         (n,) bool: the points that stand for all. The others lie between these on lines; all are kept of an even cloud.
+    stands_for
+        (n,) int64: the kept point that stands for each: the nearest.
     on_lines
         Share of the points that lie on lines: 0 for an even cloud.
     """
 
     spacing: NDArray[np.float64]
     kept: NDArray[np.bool_]
+    stands_for: NDArray[np.int64]
     on_lines: float
 
 
@@ -89,7 +82,7 @@ def sampling_of(points: NDArray[np.float64], nearest: NDArray[np.int64]) -> Samp
     even_spacing = _even_spacing(points, nearest)
     on_lines = float((_dimension(points, nearest) < LINE_DIMENSION).mean())
     if on_lines < LEAST_SHARE:
-        return Sampling(even_spacing, np.ones(len(points), dtype=bool), 0.0)
+        return Sampling(even_spacing, np.ones(len(points), dtype=bool), np.arange(len(points)), 0.0)
     order = farthest_rows(points, len(points))
     rank = np.empty(len(points), dtype=np.int64)
     rank[order] = np.arange(len(points))
@@ -110,23 +103,10 @@ def sampling_of(points: NDArray[np.float64], nearest: NDArray[np.int64]) -> Samp
     # What is covered on no level, as wires are, stays as it is.
     spacing = np.where(spacing == 0, even_spacing, spacing)
     detailed, covering = (rank < np.where(counts == 0, len(points), counts) for counts in enough.values())
-    return Sampling(spacing, covering if _lie_across(points, covering) else detailed, on_lines)
-
-
-def _lie_across(points: NDArray[np.float64], covering: NDArray[np.bool_]) -> bool:
-    """Tell whether what crowds around the `covering` ones of points (n, 3) does so across the surface, not along it.
-
-    So it does where a sensor that stands still sees each place again and again: such a crowd has noise, no detail.
-    """
-    level = np.ascontiguousarray(points[covering])
-    if covering.all() or len(level) <= SURROUNDING:
-        return False
-    normals = _core.estimate_normals(level, _core.nearest_neighbors(level, SURROUNDING))
-    rest = points[~covering]
-    at = _core.nearest_neighbors(level, np.ascontiguousarray(rest), 1)[:, 0]
-    offsets = rest - level[at]
-    across = np.square(np.einsum("nc,nc->n", offsets, normals[at])) > np.square(offsets).sum(axis=1) / 2
-    return bool(across.mean() > MOSTLY)
+    kept = detailed
+    if crowds_lie_across(points, covering):
+        kept = rank < quiet_count(points, order, int(covering.sum()))
+    return Sampling(spacing, kept, nearest_kept(points, kept), on_lines)
 
 
 def _dimension(points: NDArray[np.float64], nearest: NDArray[np.int64]) -> NDArray[np.float64]:

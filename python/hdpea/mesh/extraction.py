@@ -45,6 +45,8 @@ class Mesh:
         The lengths that were chosen automatically, in world units.
     patches
         (k, 3, 3) float64: the corners of the triangles that close holes, as they were before any fit.
+    self_intersections
+        Pairs of faces that cut each other, once its repair has counted them.
     """
 
     vertices_in_unit: NDArray[np.float64]
@@ -53,6 +55,7 @@ class Mesh:
     statistics: dict[str, int | float] = field(default_factory=dict)
     choices: tuple[Choice, ...] = ()
     patches: NDArray[np.float64] = field(default_factory=lambda: np.empty((0, 3, 3)))
+    self_intersections: int | None = None
 
 
 def extract_mesh(

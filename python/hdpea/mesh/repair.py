@@ -15,4 +15,10 @@ def repair_mesh(mesh: Mesh) -> Mesh:
     with core_errors_translated():
         repaired = _core.repair_self_intersections(mesh.vertices_in_unit, mesh.faces)
         same = _core.nearest_neighbors(mesh.vertices_in_unit, repaired.vertices, 1)[:, 0]
-    return replace(mesh, vertices_in_unit=repaired.vertices, faces=repaired.faces, coordinates=mesh.coordinates[same])
+    return replace(
+        mesh,
+        vertices_in_unit=repaired.vertices,
+        faces=repaired.faces,
+        coordinates=mesh.coordinates[same],
+        self_intersections=repaired.self_intersections,
+    )

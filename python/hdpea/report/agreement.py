@@ -54,7 +54,14 @@ class Agreement:
             yield f"{self.area_without_points:.0%} of the mesh's area has no points near."
 
 
-def agreement_of(mesh: Mesh, surface: Surface, vertices: int) -> Agreement:
+def distances_to(mesh: Mesh, surface: Surface) -> NDArray[np.float64]:
+    """Return how far each point (n,) of a surface is from the mesh, in the unit frame."""
+    return _core.closest_surface_points(mesh.vertices_in_unit, mesh.faces, surface.points_in_unit).distance
+
+
+def agreement_of(
+    mesh: Mesh, surface: Surface, vertices: int, distances: NDArray[np.float64] | None = None
+) -> Agreement:
     """Compare a mesh with the surface that it was to show in so many `vertices`.
 
     What is near depends on the local spacing of the points, and on how many of them there are for each vertex: a mesh
@@ -66,11 +73,13 @@ def agreement_of(mesh: Mesh, surface: Surface, vertices: int) -> Agreement:
         What was embedded.
     vertices
         How many were wanted.
+    distances
+        (n,) of its points from the mesh, where they are known.
     """
     points = surface.points_in_unit
     per_vertex = max(len(points) / vertices, POINTS_PER_VERTEX)
     near = NEAR * np.sqrt(per_vertex * areas_shown(points, surface.neighbors))
-    far_points = _core.closest_surface_points(mesh.vertices_in_unit, mesh.faces, points).distance > near
+    far_points = (distances_to(mesh, surface) if distances is None else distances) > near
     if mesh_area(mesh.vertices_in_unit, mesh.faces) == 0:
         return Agreement(float(far_points.mean()), 0.0)
     samples = sample_surface(mesh.vertices_in_unit, mesh.faces, SAMPLES).points

@@ -10,8 +10,9 @@ from hdpea.errors import HdpeaError
 from hdpea.mesh.budget import Budget
 from hdpea.mesh.extraction import Mesh
 from hdpea.options import MeshingOptions
+from hdpea.report.agreement import Agreement, agreement_of, distances_to
 from hdpea.report.report import Distances, MeshFacts
-from hdpea.surface.surface import Surface
+from hdpea.surface.preparation import Preparation
 
 HARDLY_SHOWN = 0.01
 """Root mean square distance of the points to the mesh, in diagonals, from which on a mesh is said to be too coarse.
@@ -31,6 +32,9 @@ def mesh_facts(mesh: Mesh) -> MeshFacts:
     check = _core.check_mesh(mesh.vertices_in_unit, mesh.faces)
     if not (check.manifold and check.oriented):
         raise HdpeaError("The mesh is not manifold.", "This is an error in hdpea: please report it with the input.")
+    cuts = mesh.self_intersections
+    if cuts is None:
+        cuts = _core.count_self_intersections(mesh.vertices_in_unit, mesh.faces)
     return MeshFacts(
         vertices=check.vertices,
         faces=check.faces,
@@ -39,15 +43,17 @@ def mesh_facts(mesh: Mesh) -> MeshFacts:
         components=check.components,
         boundary_loops=check.boundary_loops,
         genus=check.genus if check.closed else None,
-        self_intersections=_core.count_self_intersections(mesh.vertices_in_unit, mesh.faces),
+        self_intersections=cuts,
     )
 
 
-def distances_to(mesh: Mesh, surface: Surface) -> Distances:
-    """Measure how far the points of a surface are from the mesh."""
-    nearest = _core.closest_surface_points(mesh.vertices_in_unit, mesh.faces, surface.points_in_unit)
-    diagonal = surface.frame.diagonal
-    return Distances.of(nearest.distance * diagonal, surface.spacing * diagonal)
+def compare(mesh: Mesh, prepared: Preparation, vertices: int) -> tuple[Distances, Agreement]:
+    """Compare a mesh of so many `vertices` with the points as given, in distance, and as embedded, in extent."""
+    given, embedded = prepared.oriented.surface, prepared.surface
+    distances = distances_to(mesh, given)
+    diagonal = given.frame.diagonal
+    in_world = Distances.of(distances * diagonal, given.spacing * diagonal)
+    return in_world, agreement_of(mesh, embedded, vertices, distances if embedded is given else None)
 
 
 def coarseness(distances: Distances, diagonal: float, options: MeshingOptions) -> Iterator[str]:

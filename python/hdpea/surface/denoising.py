@@ -5,12 +5,12 @@ from __future__ import annotations
 
 from hdpea import _core
 from hdpea.errors import core_errors_translated
+from hdpea.frontend.roughness import Roughness
 from hdpea.options import DenoisingOptions
 from hdpea.options.choice import Choice
 from hdpea.options.denoising import FEWEST_FITTED, MOST_FITTED, ROUGH
 from hdpea.runtime.progress import ProgressCallback, tell
 from hdpea.surface.normals import OrientedSurface
-from hdpea.surface.roughness import Roughness
 from hdpea.surface.surface import Surface
 
 ROUNDS = 2

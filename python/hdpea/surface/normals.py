@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from hdpea import _core
 from hdpea.errors import UnreadableInput, core_errors_translated
+from hdpea.frontend.roughness import Roughness, roughness_of
 from hdpea.geometry.unit_frame import UnitFrame
 from hdpea.options import NormalOptions
 from hdpea.options.choice import Choice
@@ -17,7 +18,6 @@ from hdpea.runtime.progress import ProgressCallback, of_phase, tell
 from hdpea.surface.given_signs import GivenSigns, given_signs
 from hdpea.surface.orientation import SignEvidence, Vectors, orient, require_signs
 from hdpea.surface.plausibility import are_normals
-from hdpea.surface.roughness import Roughness, roughness_of
 from hdpea.surface.surface import NEIGHBORS, Surface, require_surface
 
 ORIENTATION_NEIGHBORS = 16

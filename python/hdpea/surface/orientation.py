@@ -10,11 +10,11 @@ from numpy.typing import NDArray
 
 from hdpea import _core
 from hdpea.errors import UnreadableInput, UsageError
+from hdpea.frontend.roughness import Roughness
 from hdpea.geometry.thinning import farthest_rows
 from hdpea.options import NormalOptions
 from hdpea.runtime.progress import PhaseCallback
 from hdpea.surface.given_signs import GivenSigns
-from hdpea.surface.roughness import Roughness
 from hdpea.surface.single_view import GRAZING, View, single_view
 
 Vectors = NDArray[np.float64]

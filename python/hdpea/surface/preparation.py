@@ -5,6 +5,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from hdpea.errors import core_errors_translated
+from hdpea.frontend.volume import fills_a_volume
 from hdpea.options import DenoisingOptions, NormalOptions
 from hdpea.options.choice import Choice
 from hdpea.reading.cloud import PointCloud
@@ -29,12 +31,15 @@ class Preparation:
         What was chosen automatically, in the order of the stages.
     notes
         Sentences for the user about this cloud.
+    missed
+        Why no mesh of it can be what is wanted, if so: a sentence for each reason.
     """
 
     surface: Surface
     oriented: OrientedSurface
     choices: tuple[Choice, ...]
     notes: tuple[str, ...]
+    missed: tuple[str, ...] = ()
 
 
 def prepare_surface(
@@ -75,7 +80,10 @@ def prepare_surface(
         with clock.stage("denoising"):
             surface, chosen = denoised(oriented, denoising, progress)
             choices += chosen
-    return Preparation(surface, oriented, choices, tuple(_notes(cloud, oriented)))
+    with core_errors_translated():
+        solid = fills_a_volume(oriented.surface.points_in_unit, oriented.roughness)
+    missed = ("The points fill a volume: they show no surface.",) if solid else ()
+    return Preparation(surface, oriented, choices, tuple(_notes(cloud, oriented)), missed)
 
 
 def _notes(cloud: PointCloud, oriented: OrientedSurface) -> list[str]:

@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hdpea import _core
+from hdpea.frontend.roughness import Roughness
 from hdpea.geometry.thinning import rows_along
-from hdpea.surface.roughness import Roughness
 
 Vectors = NDArray[np.float64]
 

@@ -3,8 +3,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.lib.recfunctions import repack_fields
@@ -153,10 +154,25 @@ def write_points(path: Path, points: Points, normals: Points, coordinates: Point
             partial.write_bytes(point_ply(points, normals, others, "embedding"))
 
 
-def point_ply(points: Points, normals: Points, others: Mapping[str, NDArray[np.float64]], kind: str = "scan") -> bytes:
-    """Return the content of a PLY file of points (n, 3), normals (n, 3) and other properties (n,), marked as `kind`."""
-    table = np.column_stack([points, normals, *others.values()])
-    return marked(_ply(_records(table, ["x", "y", "z", "nx", "ny", "nz", *others])), ".ply", kind)
+def point_ply(
+    points: Points,
+    normals: Points | None,
+    others: Mapping[str, NDArray[Any]],
+    kind: str = "scan",
+    comments: Sequence[str] = (),
+) -> bytes:
+    """Return the content of a PLY file of points (n, 3), their normals (n, 3) if any, and other properties (n,).
+
+    Points and normals are written as doubles, other properties as the numbers that they are. It is marked as `kind`.
+    """
+    columns: dict[str, NDArray[Any]] = dict(zip("xyz", points.T, strict=True))
+    if normals is not None:
+        columns |= zip(("nx", "ny", "nz"), normals.T, strict=True)
+    columns |= others
+    table = np.empty(len(points), [(name, column.dtype.newbyteorder("<")) for name, column in columns.items()])
+    for name, column in columns.items():
+        table[name] = column
+    return marked(_ply(table, comments=comments), ".ply", kind)
 
 
 def _off(mesh: MeshContent) -> bytes:
@@ -164,7 +180,7 @@ def _off(mesh: MeshContent) -> bytes:
     return head + lines(mesh.vertices) + lines(mesh.faces, "3 ")
 
 
-def _ply(vertex: NDArray[np.void], faces: Faces | None = None) -> bytes:
+def _ply(vertex: NDArray[np.void], faces: Faces | None = None, comments: Sequence[str] = ()) -> bytes:
     elements, body = [PlyElement.describe(vertex, "vertex")], vertex.tobytes()
     if faces is not None:
         # The library writes lists one by one; every list here is three long, which makes it a table.
@@ -172,12 +188,8 @@ def _ply(vertex: NDArray[np.void], faces: Faces | None = None) -> bytes:
         table["count"], table["vertex_indices"] = 3, faces
         body += table.tobytes()
         elements.append(PlyElement.describe(repack_fields(table[["vertex_indices"]]), "face"))
-    header: str = PlyData(elements, byte_order="<").header
+    header: str = PlyData(elements, byte_order="<", comments=list(comments)).header
     return f"{header}\n".encode() + body
-
-
-def _records(table: Points, names: list[str]) -> NDArray[np.void]:
-    return np.ascontiguousarray(table, "<f8").view([(name, "<f8") for name in names])[:, 0]
 
 
 def _mesh_ply(mesh: MeshContent) -> bytes:

@@ -7,12 +7,10 @@ from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
-from plyfile import PlyData, PlyElement
 
-from hdpea.runtime.marks import mark_of
 from hdpea.runtime.outputs import check_output, replacing
 from hdpea.writing.marking import save_arrays
-from hdpea.writing.meshes import POINT_FORMATS
+from hdpea.writing.meshes import POINT_FORMATS, point_ply
 
 REASONS = "reason 1: lies on no surface; 2: crowds on scan lines"
 
@@ -35,8 +33,4 @@ def write_dropped(path: Path, points: NDArray[np.float64], reasons: NDArray[np.u
         if path.suffix.lower() == ".npz":
             save_arrays(partial, "set of dropped points", points=points, reason=reasons)
             return
-        table = np.empty(len(points), [("x", "<f8"), ("y", "<f8"), ("z", "<f8"), ("reason", "u1")])
-        table["x"], table["y"], table["z"] = points.T
-        table["reason"] = reasons
-        comments = [mark_of("set of dropped points"), REASONS]
-        PlyData([PlyElement.describe(table, "vertex")], byte_order="<", comments=comments).write(str(partial))
+        partial.write_bytes(point_ply(points, None, {"reason": reasons}, "set of dropped points", [REASONS]))

@@ -22,6 +22,13 @@ void require_finite(const Matrix& matrix, const std::string& name, double larges
   throw InvalidArgument(message.str());
 }
 
+/// Finite vectors, none so short that its length, squared, is 0: then it has no direction.
+inline void require_directions(const PointsRef& vectors, const std::string& name) {
+  require_finite(vectors, name);
+  require((vectors.rowwise().squaredNorm().array() >= 1 / (kLargestSquared * kLargestSquared)).all(),
+          name + " must not be 0");
+}
+
 template <class Matrix>
 void require_rows(const Matrix& matrix, Index rows, const std::string& name) {
   require(matrix.rows() == rows,

@@ -24,27 +24,28 @@ constexpr std::size_t kFewestFaces = 4;
 
 }  // namespace
 
-TriangleMesh repair_self_intersections(const PointsRef& vertices, const FacesRef& faces) {
+RepairedMesh repair_self_intersections(const PointsRef& vertices, const FacesRef& faces) {
   const MeshCheck given = check_mesh(vertices, faces);
   require(given.manifold() && given.oriented(), "repair_self_intersections needs a manifold, oriented mesh");
   const Index cuts = count_self_intersections(vertices, faces);
   // CGAL's smoothing needs faces with an area.
-  if (cuts == 0 || given.degenerate_faces > 0) return {vertices, faces};
+  const RepairedMesh unchanged{vertices, faces, cuts};
+  if (cuts == 0 || given.degenerate_faces > 0) return unchanged;
   SurfaceMesh mesh = to_cgal(vertices, faces);
   try {
     pmp::experimental::remove_self_intersections(mesh,
                                                  CGAL::parameters::preserve_genus(false).number_of_iterations(kRounds));
   } catch (const CGAL::Failure_exception&) {
-    return {vertices, faces};  // some faces lost theirs on the way, which only builds with assertions see
+    return unchanged;  // some faces lost theirs on the way, which only builds with assertions see
   }
   pmp::keep_large_connected_components(mesh, kFewestFaces);
   pmp::remove_isolated_vertices(mesh);
   TriangleMesh repaired = from_cgal(mesh);
-  if (repaired.faces.rows() == 0 || !repaired.vertices.allFinite()) return {vertices, faces};
+  if (repaired.faces.rows() == 0 || !repaired.vertices.allFinite()) return unchanged;
   const MeshCheck check = check_mesh(repaired.vertices, repaired.faces);
-  const bool better =
-      check.manifold() && check.oriented() && count_self_intersections(repaired.vertices, repaired.faces) < cuts;
-  return better ? repaired : TriangleMesh{vertices, faces};
+  if (!check.manifold() || !check.oriented()) return unchanged;
+  const Index left = count_self_intersections(repaired.vertices, repaired.faces);
+  return left < cuts ? RepairedMesh{repaired.vertices, repaired.faces, left} : unchanged;
 }
 
 }  // namespace hdpea

@@ -5,6 +5,13 @@
 
 namespace hdpea {
 
+/// A mesh, and how many pairs of its faces cut each other.
+struct RepairedMesh {
+  Points vertices;
+  Faces faces;
+  Index self_intersections = 0;  ///< as count_self_intersections has them
+};
+
 /// Mends faces that cut or touch others: what folds over itself is smoothed, or else cut out and triangulated anew.
 ///
 /// By CGAL's remove_self_intersections, in small neighbourhoods only: where two walls pass through each other, larger
@@ -14,6 +21,6 @@ namespace hdpea {
 /// @param vertices  (v, 3), finite
 /// @param faces     (f, 3) edge- and vertex-manifold, oriented; what is returned is so, too
 /// @throws InvalidArgument on a broken contract
-TriangleMesh repair_self_intersections(const PointsRef& vertices, const FacesRef& faces);
+RepairedMesh repair_self_intersections(const PointsRef& vertices, const FacesRef& faces);
 
 }  // namespace hdpea

@@ -54,6 +54,7 @@ Curvature estimate_curvature(const PointsRef& points, const PointsRef& normals, 
                              double radius) {
   const Index n = points.rows();
   require_neighborhoods(points, normals, neighbors);
+  require_directions(normals, "normals");
   require(radius > 0 && std::isfinite(radius), "the curvature radius must be positive and finite");
   Curvature curvature{{n, 2}, Points(n, 3)};
   parallel_for(n, [&](Index i) {

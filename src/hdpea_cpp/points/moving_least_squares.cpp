@@ -30,6 +30,7 @@ SurfacePlaces moving_least_squares(const PointsRef& places, const PointsRef& nor
   require_rows(places, n, "places");
   require_finite(places, "places");
   require_neighborhoods(points, normals, neighbors);
+  require_directions(normals, "normals");
   SurfacePlaces moved{places, normals};
   parallel_for(n, [&](Index i) {
     const Eigen::Vector3d place = places.row(i), normal = normals.row(i);

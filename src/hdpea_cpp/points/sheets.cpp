@@ -56,6 +56,7 @@ Neighbors sheet_neighbors(const PointsRef& points, const PointsRef& normals, con
                           const SheetOptions& options) {
   const Index n = points.rows();
   require_neighborhoods(points, normals, neighbors);
+  require_directions(normals, "normals");
   std::vector<char> rim(static_cast<std::size_t>(n));
   std::vector<double> reach(static_cast<std::size_t>(n));
   parallel_for(n, [&](Index i) {

@@ -59,6 +59,7 @@ Eigen::MatrixXd fit_extra(const CoordinatesRef& coordinates, const NeighborsRef&
 Coordinates tangent_bases(const CoordinatesRef& coordinates, const PointsRef& normals, const NeighborsRef& neighbors) {
   const Index n = coordinates.rows(), d = coordinates.cols();
   require_neighborhoods(coordinates, normals, neighbors);
+  require_directions(normals, "normals");
   require(d >= 3, "the first three coordinates are positions");
   Coordinates bases(n, 2 * d);
   parallel_for(n, [&](Index i) {
@@ -75,7 +76,7 @@ Coordinates tangent_bases(const CoordinatesRef& coordinates, const PointsRef& no
 }
 
 Coordinates tangent_bases_across(const PointsRef& normals) {
-  require_finite(normals, "normals");
+  require_directions(normals, "normals");
   Coordinates bases(normals.rows(), 6);
   for (Index i = 0; i < normals.rows(); ++i) {
     const Plane plane = plane_across(normals.row(i).transpose());

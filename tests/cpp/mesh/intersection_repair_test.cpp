@@ -13,7 +13,7 @@ namespace {
 
 TEST(IntersectionRepair, LeavesAMeshAloneInWhichNoFaceCutsAnother) {
   const auto torus = shapes::torus(30, 15);
-  const TriangleMesh same = repair_self_intersections(torus.vertices, torus.faces);
+  const RepairedMesh same = repair_self_intersections(torus.vertices, torus.faces);
   EXPECT_EQ(same.vertices, torus.vertices);
   EXPECT_EQ(same.faces, torus.faces);
 }
@@ -23,7 +23,7 @@ TEST(IntersectionRepair, TakesBackAVertexThatWentThroughTheFacesBesideIt) {
   // Vertex 60 lies inside: pushed beyond the vertices two steps away it folds its faces over theirs.
   grid.vertices.row(60) += Eigen::RowVector3d(0.25, 0.03, 0);
   ASSERT_GT(count_self_intersections(grid.vertices, grid.faces), 0);
-  const TriangleMesh repaired = repair_self_intersections(grid.vertices, grid.faces);
+  const RepairedMesh repaired = repair_self_intersections(grid.vertices, grid.faces);
   EXPECT_EQ(count_self_intersections(repaired.vertices, repaired.faces), 0);
   const MeshCheck check = check_mesh(repaired.vertices, repaired.faces);
   EXPECT_TRUE(check.manifold() && check.oriented());

@@ -26,3 +26,16 @@ def test_what_breaks_the_contract_is_refused(name: str) -> None:
     made = subprocess.run(command, capture_output=True, text=True, timeout=120, check=False)
     assert (made.returncode, made.stderr) == (0, "")
     assert int(made.stdout) >= 1
+
+
+@pytest.mark.parametrize(
+    "name",
+    ["estimate_curvature", "moving_least_squares", "sheet_neighbors", "tangent_bases", "tangent_bases_across"],
+)
+@pytest.mark.parametrize("length", [0.0, 1e-200])
+def test_a_normal_without_a_direction_is_refused(name: str, length: float) -> None:
+    call, arguments = core_calls.CALLS[name]
+    normals = core_calls.NORMALS.copy()
+    normals[7] *= length
+    with pytest.raises(_core.InvalidArgument, match="must not be 0"):
+        call(**arguments | {"normals": normals})

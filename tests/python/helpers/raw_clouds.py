@@ -148,3 +148,9 @@ def solid_ball(count: int) -> Array:
     """Return about half as many points that fill the unit ball."""
     points = np.random.default_rng(0).uniform(-1, 1, (count, 3))
     return points[np.linalg.norm(points, axis=1) < 1]
+
+
+def voxels_of_a_ball(across: int) -> Array:
+    """Return the cells of a cubic grid in a ball that is so many of them across."""
+    cells = np.stack(np.meshgrid(*[np.arange(across)] * 3), axis=-1).reshape(-1, 3) - (across - 1) / 2
+    return cells[np.linalg.norm(cells, axis=1) < across / 2]

@@ -10,12 +10,12 @@ import pytest
 from helpers import clouds
 
 from hdpea.errors import Interrupted, UsageError
+from hdpea.frontend.roughness import roughness_of
 from hdpea.geometry.unit_frame import UnitFrame
 from hdpea.options import DenoisingOptions, MeshingOptions, Options
 from hdpea.reconstruction import reconstruct
 from hdpea.surface.denoising import denoised
 from hdpea.surface.normals import OrientedSurface
-from hdpea.surface.roughness import roughness_of
 from hdpea.surface.surface import Surface
 
 MLS = DenoisingOptions(denoise="mls")

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from helpers import clouds
 
-from hdpea.surface.roughness import Roughness, roughness_of
+from hdpea.frontend.roughness import Roughness, roughness_of
 
 
 @pytest.mark.parametrize("share", [0.1, 0.5, 1, 1.5])
