@@ -3,6 +3,9 @@
 
 from __future__ import annotations
 
+import numpy as np
+from numpy.typing import NDArray
+
 from hdpea import _core
 from hdpea.errors import core_errors_translated
 from hdpea.frontend.roughness import Roughness
@@ -10,8 +13,13 @@ from hdpea.options import DenoisingOptions
 from hdpea.options.choice import Choice
 from hdpea.options.denoising import FEWEST_FITTED, MOST_FITTED, ROUGH
 from hdpea.runtime.progress import ProgressCallback, tell
+from hdpea.surface.layers import have_layers, layered_region
 from hdpea.surface.normals import OrientedSurface
 from hdpea.surface.surface import Surface
+
+Vectors = NDArray[np.float64]
+
+LAYERED = "layers face the same way a few spacings apart: one surface, scanned twice"
 
 ROUNDS = 2
 """The second round fits along the normals that the first one found, with the weights that they give."""
@@ -33,6 +41,9 @@ def denoised(
     their order and frame, and are always fitted as they were given: more rounds do not shrink the shape. Two sheets
     that face the same side within the reach of the neighbours are drawn to each other.
 
+    Layers that face the same way are drawn to each other whatever else is chosen, with the most neighbours: they are
+    misplaced scans of one surface.
+
     With ``denoise="none"``, and where ``"auto"`` finds the points smooth, the surface is returned as it is.
     """
     surface = oriented.surface
@@ -40,23 +51,45 @@ def denoised(
         return surface, ()
     roughness = oriented.roughness
     method, choices = _method(options, roughness, oriented.estimated > 0)
+    with core_errors_translated():
+        # Noise as wide as the points are apart lifts points above others, too.
+        told_apart = options.denoise == "auto" and roughness.noise <= ROUGH
+        layered = told_apart and have_layers(surface.points_in_unit, surface.normals)
+    if layered:
+        method, choices = "mls", (Choice("denoise", "mls", "", LAYERED),)
     if method == "none":
         return surface, choices
     count = options.denoise_neighbors
     if count is None:
         count = STEP * round(NEIGHBORS_OF_NOISE * roughness.deviation**2 / STEP)
-        count = max(FEWEST_FITTED, min(count, MOST_FITTED))
-        choices += (Choice("denoise_neighbors", count, "points", str(roughness)),)
-    points, normals = surface.points_in_unit, surface.normals
+        count = MOST_FITTED if layered else max(FEWEST_FITTED, min(count, MOST_FITTED))
+        choices += (Choice("denoise_neighbors", count, "points", LAYERED if layered else str(roughness)),)
     with core_errors_translated():
-        # Of all sheets: noise lifts neighbours off their own, and the weights discount the far side of walls.
-        nearest = _core.nearest_neighbors(surface.points_in_unit, min(count, len(points) - 1))
-        for number in range(ROUNDS):
-            tell(progress, "denoising", number / ROUNDS)
-            moved = _core.moving_least_squares(points, normals, surface.points_in_unit, nearest)
-            points, normals = moved.points, moved.normals
+        points, normals = _fitted(surface, count, progress)
+        if layered and roughness.deviation <= ROUGH:
+            points, normals = _in_layers(surface, points, normals)
     tell(progress, "denoising", 1)
     return Surface.of(surface.frame, points, normals), choices
+
+
+def _fitted(surface: Surface, count: int, progress: ProgressCallback | None) -> tuple[Vectors, Vectors]:
+    """Return the points (n, 3) on the fit of so many neighbours, and the normals there."""
+    points, normals = surface.points_in_unit, surface.normals
+    # Of all sheets: noise lifts neighbours off their own, and the weights discount the far side of walls.
+    nearest = _core.nearest_neighbors(surface.points_in_unit, min(count, len(points) - 1))
+    for number in range(ROUNDS):
+        tell(progress, "denoising", number / ROUNDS)
+        moved = _core.moving_least_squares(points, normals, surface.points_in_unit, nearest)
+        points, normals = moved.points, moved.normals
+    return points, normals
+
+
+def _in_layers(surface: Surface, points: Vectors, normals: Vectors) -> tuple[Vectors, Vectors]:
+    """Keep the fitted points and normals (n, 3) where layers lie, and those given elsewhere."""
+    rows = layered_region(surface.points_in_unit, surface.normals)
+    kept_points, kept_normals = surface.points_in_unit.copy(), surface.normals.copy()
+    kept_points[rows], kept_normals[rows] = points[rows], normals[rows]
+    return kept_points, kept_normals
 
 
 def _method(options: DenoisingOptions, roughness: Roughness, estimated: bool) -> tuple[str, tuple[Choice, ...]]:

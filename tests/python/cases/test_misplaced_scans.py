@@ -1,0 +1,49 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Scans of one thing that are out of register: one surface between the layers, and thin walls stay walls."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from helpers.clouds import Array, sphere_points
+from helpers.raw_clouds import overlapping_halves, two_scans_of_a_ball, two_scans_of_a_wall
+from helpers.raw_meshes import BALL, area, assert_ball, middles, share_against
+
+from hdpea import reconstruct
+from hdpea.surface.layers import have_layers
+
+
+@pytest.mark.parametrize("with_normals", [False, True])
+@pytest.mark.parametrize("spacings", [1.0, 2.0])
+def test_two_scans_of_a_ball_give_one(spacings: float, with_normals: bool) -> None:
+    points, normals = two_scans_of_a_ball(2500, spacings)
+    assert_ball(reconstruct(points, normals if with_normals else None))
+
+
+@pytest.mark.parametrize("with_normals", [False, True])
+def test_halves_that_overlap_are_joined_along_one_seam(with_normals: bool) -> None:
+    points, normals = overlapping_halves(2500, 1.0, 0.2)
+    assert_ball(reconstruct(points, normals if with_normals else None), within=0.1, full=1.08 * BALL)
+
+
+def test_a_wall_whose_layers_face_the_same_way_is_one_sheet() -> None:
+    points, normals = two_scans_of_a_wall(2500, 1.5)
+    made = reconstruct(points, normals)
+    mesh = made.report.mesh
+    assert (mesh.components, mesh.boundary_loops, mesh.self_intersections) == (1, 1, 0)
+    assert area(made) == pytest.approx(1, rel=0.06)
+    assert share_against(made, np.array([0, 0, 1.0])) < 1e-9
+    # Half way between the layers.
+    assert middles(made)[:, 2].mean() == pytest.approx(0.75 / 50, rel=0.15)
+
+
+def shell(apart: float) -> tuple[Array, Array]:
+    """Return the outside and the inside of a thick ball, and their normals."""
+    outer, inner = sphere_points(3000, 1), sphere_points(3000, 2)
+    return np.vstack([outer, (1 - apart) * inner]), np.vstack([outer, -inner])
+
+
+def test_the_sides_of_a_wall_are_no_layers_of_one_surface() -> None:
+    points, normals = shell(0.1)
+    assert not have_layers(points, normals)
+    assert have_layers(points, normals, signed=False)
