@@ -134,7 +134,7 @@ def test_each_cloud_has_a_mesh_and_a_line(capsys: Capture) -> None:
     assert Path("a.mesh.ply").read_bytes() == Path("new/meshes/a.mesh.ply").read_bytes()
 
 
-def test_meshes_of_an_earlier_run_are_no_clouds(failed: Callable[..., str], capsys: Capture) -> None:
+def test_meshes_of_an_earlier_run_are_no_clouds(failed: Callable[..., str]) -> None:
     write_mesh("a.mesh.ply", tetrahedron(), TETRAHEDRON_FACES)
     assert "meshes that hdpea made" in failed(2, "reconstruct", "a.mesh.ply", "--out-dir", ".")
     assert "no file none.ply" in failed(3, "reconstruct", "none.ply", "a.mesh.ply", "--out-dir", ".")
