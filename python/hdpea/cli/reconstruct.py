@@ -168,7 +168,7 @@ def _check_outputs(wanted: Sequence[Job], read: Sequence[Path | str | None], for
         if job.picture:
             check_drawing()
         _check_texture(job)
-        require_no_scan(job.destination)
+        require_no_scan(job.destination.output)
     check_replaceable(kinds, force)
 
 

@@ -54,6 +54,8 @@ def parse_las(data: bytes) -> PointCloud:
         reader.read_evlrs()
         if header.are_points_compressed:
             _require_room(_chunks(data, header.offset_to_point_data), len(data))
+        if header.point_count == 0:
+            raise UnreadableInput("there are no points in it.")
         _require_room(header.point_count * header.point_format.size, max(MOST_UNPACKED * len(data), ALWAYS_UNPACKED))
         names = [name for name in header.point_format.dimension_names if name not in _GRID]
         columns: dict[str, NDArray[Any]] = {}

@@ -97,7 +97,10 @@ def test_points_left_out_are_marked(name: str) -> None:
 
 @pytest.mark.parametrize("command", ["embed", "curvature"])
 def test_other_commands_ask_before_they_replace(command: str, failed: Callable[..., str]) -> None:
-    failed(2, command, "a.ply", "b.ply")
+    assert "taken for a scan" in failed(2, command, "a.ply", "b.ply", "--force")
+    Path("notes.npz").write_text("of something else")
+    assert "no " in failed(2, command, "a.ply", "notes.npz")
+    assert run([command, "a.ply", "notes.npz", "--quiet", "--force"]) == 0
     assert run([command, "a.ply", "out.ply", "--quiet"]) == 0
     assert run([command, "a.ply", "out.ply", "--quiet"]) == 0
 
