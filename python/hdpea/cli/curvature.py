@@ -8,6 +8,7 @@ from typing import Any
 
 import click
 
+from hdpea.cli.destinations import require_no_scan
 from hdpea.cli.parameters import PATH, GroupedCommand, GroupedOption, force_option, quiet_option, setting_options
 from hdpea.curvature.options import CurvatureOptions
 from hdpea.options.settings import filled
@@ -66,6 +67,7 @@ def command(
     options = filled(CurvatureOptions, values)
     _check_outputs(output, picture, page)
     check_distinct([source, options.embedding.weights], [output, picture, page])
+    require_no_scan(output, "curvature")
     kinds = {output: "curvature", picture: "picture", page: "page"}
     check_replaceable({path: kind for path, kind in kinds.items() if path is not None}, force)
     from hdpea.curvature.estimation import estimate_curvature

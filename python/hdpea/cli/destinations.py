@@ -15,6 +15,9 @@ STANDARD_STREAM = "-"
 FORMATS = ("ply", "obj", "stl", "off", "glb")
 """Of meshes; the first is that of a mesh whose name is not given."""
 
+SCAN_LIKE = (".ply", ".obj", ".off", ".npz")
+"""Extensions of outputs that scans have, too."""
+
 
 @dataclass(frozen=True)
 class Destination:
@@ -84,23 +87,28 @@ def _in_folder(source: str, folder: Path, mesh_format: str | None) -> Destinatio
     )
 
 
-def require_no_scan(destination: Destination) -> None:
+def require_no_scan(output: Path | None, kind: str = "mesh") -> None:
     """Refuse an output in the place of which a scan lies, as a pattern such as ``*.ply`` easily puts one there.
 
     Raises
     ------
     UsageError
-        If it exists, has points and no faces, and hdpea did not write it as a mesh.
+        If it is a PLY, OBJ, OFF or NPZ that exists, has points and no faces, and that hdpea did not write as one of
+        this kind.
     """
-    output = destination.output
     try:
         is_scan = (
-            output is not None and output.is_file() and not is_marked(output, "mesh") and _holds_points_alone(output)
+            output is not None
+            and output.suffix.lower() in SCAN_LIKE
+            and output.is_file()
+            and not is_marked(output, kind)
+            and _holds_points_alone(output)
         )
     except OSError as error:
         raise UsageError(f"Cannot write {output}: {error.strerror}.", "Choose another name.") from error
     if is_scan:
-        raise UsageError(f"{output} exists and holds points: it is taken for a scan, and never replaced.", _SEVERAL)
+        hint = _SEVERAL if kind == "mesh" else "Remove it yourself if it may go."
+        raise UsageError(f"{output} exists and holds points: it is taken for a scan, and never replaced.", hint)
 
 
 def _holds_points_alone(path: Path) -> bool:

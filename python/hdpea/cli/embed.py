@@ -9,6 +9,7 @@ from typing import Any
 import click
 
 from hdpea.cli.config import config_of, config_option
+from hdpea.cli.destinations import require_no_scan
 from hdpea.cli.parameters import PATH, GroupedCommand, chosen_options, force_option, quiet_option, setting_options
 
 EPILOG = """\b
@@ -43,6 +44,7 @@ def command(ctx: click.Context, /, *, source: str, output: Path, force: bool, qu
 
     check_output(output, POINT_FORMATS)
     check_distinct([source, options.embedding.weights, config_of(ctx)], [output])
+    require_no_scan(output, "embedding")
     check_replaceable({output: "embedding"}, force)
     with shown(quiet) as progress:
         tell(progress, "reading", 0.0)

@@ -26,7 +26,7 @@ from hdpea.cli.parameters import (
     setting_options,
 )
 from hdpea.errors import HdpeaError, UsageError
-from hdpea.runtime.marks import check_replaceable
+from hdpea.runtime.marks import check_replaceable, is_marked
 from hdpea.runtime.outputs import check_distinct, check_output
 
 EPILOG = """\b
@@ -115,6 +115,8 @@ def command(
         raise UsageError(
             "`report`, `dropped`, `picture` and `page` are of one mesh, not of several.", "`as_json` tells of each."
         )
+    if out_dir is not None:
+        files = _without_own(files, quiet)
     wanted = [
         Job(each, options, report, dropped, picture, page) for each in destinations(files, out_dir, merge, mesh_format)
     ]
@@ -130,6 +132,16 @@ def command(
         _make_each(wanted, jobs, out_dir, as_json, quiet)
     else:
         _make_one(wanted[0], as_json, quiet, verbose)
+
+
+def _without_own(files: Sequence[str], quiet: bool) -> tuple[str, ...]:
+    """Leave out meshes that an earlier run of the same command made, which ``*.ply`` takes for clouds; say so."""
+    own = [file for file in files if Path(file).is_file() and is_marked(Path(file), "mesh")]
+    if own and not quiet:
+        click.echo(f"Left out, since they are meshes that hdpea made: {', '.join(own)}.", err=True)
+    if len(own) == len(files):
+        raise UsageError("All of the files are meshes that hdpea made.", "Name one alone to make a mesh of a mesh.")
+    return tuple(file for file in files if file not in own)
 
 
 def _check_outputs(wanted: Sequence[Job], read: Sequence[Path | str | None], force: bool) -> None:
@@ -156,7 +168,7 @@ def _check_outputs(wanted: Sequence[Job], read: Sequence[Path | str | None], for
         if job.picture:
             check_drawing()
         _check_texture(job)
-        require_no_scan(job.destination)
+        require_no_scan(job.destination.output)
     check_replaceable(kinds, force)
 
 

@@ -29,7 +29,7 @@ from hdpea.reading.text import UTF16, parse_text
 TABLES = (".xyz", ".xyzn", ".txt", ".csv", ".asc", ".pts", ".pwn")
 
 CLOUD_FORMATS = (
-    ".ply", *TABLES, ".obj", ".off", ".npy", ".npz", ".las", ".laz", ".e57", ".pcd", ".ptx", ".gz"
+    ".ply", *TABLES, ".obj", ".off", ".npy", ".npz", ".las", ".laz", ".e57", ".pcd", ".ptx"
 )  # fmt: skip
 """Extensions by which clouds are found in a folder; what a file holds is told by its content."""
 

@@ -27,6 +27,9 @@ USER_DEFINED = 32767
 VLRS, VLR_HEADER, EVLR_HEADER = struct.Struct("<100xI"), 54, 60
 """Where a file says how many variable length records it has; bytes of each, and of each extended one, at least."""
 
+CHUNK_TABLE, CHUNKS = struct.Struct("<q"), struct.Struct("<4xI")
+"""Before the points, where the table of chunks is; in that, how many there are, of which each takes bytes."""
+
 _GRID = frozenset("XYZ")
 
 
@@ -49,6 +52,10 @@ def parse_las(data: bytes) -> PointCloud:
         header = reader.header
         _require_room(header.number_of_evlrs * EVLR_HEADER, len(data))
         reader.read_evlrs()
+        if header.are_points_compressed:
+            _require_room(_chunks(data, header.offset_to_point_data), len(data))
+        if header.point_count == 0:
+            raise UnreadableInput("there are no points in it.")
         _require_room(header.point_count * header.point_format.size, max(MOST_UNPACKED * len(data), ALWAYS_UNPACKED))
         names = [name for name in header.point_format.dimension_names if name not in _GRID]
         columns: dict[str, NDArray[Any]] = {}
@@ -69,6 +76,16 @@ def parse_las(data: bytes) -> PointCloud:
     notes = [f"Left out points that are withheld: {withheld:,}."] if withheld else []
     cloud = from_columns(filled, f"{'LAZ' if header.are_points_compressed else 'LAS'} {header.version}", notes)
     return PointCloud(cloud.points, cloud.normals, cloud.attributes, cloud.format, cloud.notes, crs=_crs(told))
+
+
+def _chunks(data: bytes, start: int) -> int:
+    """Return how many chunks a LAZ file says to have: its library ends the process if it has no memory for so many."""
+    (table,) = CHUNK_TABLE.unpack_from(data, start)
+    if table == -1:  # of a file that was written in one go
+        (table,) = CHUNK_TABLE.unpack_from(data, len(data) - CHUNK_TABLE.size)
+    if not 0 <= table <= len(data) - CHUNKS.size:
+        raise ValueError("its table of chunks is not there")
+    return int(CHUNKS.unpack_from(data, table)[0])
 
 
 def _require_room(announced: int, most: int) -> None:

@@ -97,7 +97,10 @@ def test_points_left_out_are_marked(name: str) -> None:
 
 @pytest.mark.parametrize("command", ["embed", "curvature"])
 def test_other_commands_ask_before_they_replace(command: str, failed: Callable[..., str]) -> None:
-    failed(2, command, "a.ply", "b.ply")
+    assert "taken for a scan" in failed(2, command, "a.ply", "b.ply", "--force")
+    Path("notes.npz").write_text("of something else")
+    assert "no " in failed(2, command, "a.ply", "notes.npz")
+    assert run([command, "a.ply", "notes.npz", "--quiet", "--force"]) == 0
     assert run([command, "a.ply", "out.ply", "--quiet"]) == 0
     assert run([command, "a.ply", "out.ply", "--quiet"]) == 0
 
@@ -132,6 +135,12 @@ def test_each_cloud_has_a_mesh_and_a_line(capsys: Capture) -> None:
     # The same as alone.
     assert run(["reconstruct", "a.ply", "--quiet"]) == 0
     assert Path("a.mesh.ply").read_bytes() == Path("new/meshes/a.mesh.ply").read_bytes()
+
+
+def test_meshes_of_an_earlier_run_are_no_clouds(failed: Callable[..., str]) -> None:
+    write_mesh("a.mesh.ply", tetrahedron(), TETRAHEDRON_FACES)
+    assert "meshes that hdpea made" in failed(2, "reconstruct", "a.mesh.ply", "--out-dir", ".")
+    assert "no file none.ply" in failed(3, "reconstruct", "none.ply", "a.mesh.ply", "--out-dir", ".")
 
 
 def ended(kind: type[HdpeaError] | None) -> Ended:

@@ -4,9 +4,11 @@
 from __future__ import annotations
 
 import gzip
+import io
 import sys
 from pathlib import Path
 
+import laspy
 import numpy as np
 import pytest
 from helpers import scanner_files
@@ -42,7 +44,7 @@ def test_points_and_attributes_come_back(name: str, tmp_path: Path) -> None:
     sensors = cloud.sensors()
     assert (sensors is not None) == (name in WITH_SENSOR)
     assert sensors is None or (sensors == SENSOR).all()
-    assert Path(name).suffix in CLOUD_FORMATS
+    assert Path(name.removesuffix(".gz")).suffix in CLOUD_FORMATS
 
 
 @pytest.mark.parametrize("compressed", [False, True])
@@ -83,6 +85,13 @@ def test_a_file_cut_off_says_so(name: str) -> None:
     with pytest.raises(UnreadableInput) as caught:
         parse_points(content[: 2 * len(content) // 3 - 3])
     assert caught.value.hint
+
+
+def test_las_without_points_is_refused() -> None:
+    stream = io.BytesIO()
+    laspy.LasData(laspy.LasHeader(point_format=3, version="1.2")).write(stream)
+    with pytest.raises(UnreadableInput, match="no points"):
+        parse_points(stream.getvalue())
 
 
 def test_gzip_that_would_fill_the_memory_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:

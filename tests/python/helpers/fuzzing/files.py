@@ -8,6 +8,7 @@ from collections.abc import Callable
 
 import numpy as np
 from helpers.files import WITH_NORMALS, WITHOUT_NORMALS
+from helpers.scanner_files import FILES
 
 from hdpea.errors import UnreadableInput
 from hdpea.reading import parse_points
@@ -15,7 +16,7 @@ from hdpea.reading.cloud import cleaned
 
 Random = np.random.Generator
 
-GOOD = sorted({**WITH_NORMALS, **WITHOUT_NORMALS}.items())
+GOOD = sorted({**WITH_NORMALS, **WITHOUT_NORMALS, **{name: made() for name, made in FILES.items()}}.items())
 
 NUMBERS = [b"-1", b"0", b"400000000", b"99999999999999999999", b"1e400", b"nan", b"x"]
 
