@@ -20,6 +20,7 @@ from hdpea.mesh.assembly import assemble_mesh
 from hdpea.mesh.attributes import vertex_attributes
 from hdpea.mesh.budget import particles_wanted
 from hdpea.mesh.extraction import Mesh
+from hdpea.mesh.noise import within_noise
 from hdpea.mesh.sides import FacedMesh, facing_out
 from hdpea.mesh.texture import require_colors, texture_of
 from hdpea.options import Classes, Length, Options
@@ -160,7 +161,8 @@ def reconstruct(
     embedder
         An embedding of your own, in place of the one that the options name.
     vertices, faces
-        How many are wanted; one of the two. Default: one vertex for every 8 points.
+        How many are wanted; one of the two. Default: one vertex for every 8 points, fewer if their noise
+        hides what these would show.
     error
         As few triangles as keep within this length of the points, both ways: in world units, or text such as ``"1%"``
         of the diagonal. `vertices` or `faces` are then the most there may be.
@@ -240,12 +242,14 @@ def reconstruct(
             tell(progress, "cleaning", 1)
         per_particle = len(cloud.points) / options.particles_of(found.points_shown)
         prepared = prepare_surface(cloud, options.normals, options.denoising, per_particle, progress, clock)
-        particles, count_choices = particles_wanted(options, len(cloud.points), found.points_shown)
+        budgeted, noise_choices = within_noise(options, prepared, found.points_shown)
+        particles, count_choices = particles_wanted(budgeted, len(cloud.points), found.points_shown)
+        per_particle = len(cloud.points) / particles
         surface = prepared.surface
         with clock.stage("embedding"):
             embedded = embed_surface(surface, particles, options.embedding, progress, embedder)
             bases = tangent_bases(embedded.coordinates, surface.normals, surface.neighbors, per_particle)
-        mesh = assemble_mesh(surface, embedded.coordinates, bases, options, progress, clock, found.points_shown)
+        mesh = assemble_mesh(surface, embedded.coordinates, bases, budgeted, progress, clock, found.points_shown)
         # Before any piece is turned, as its points are not.
         carried = _carried(mesh, surface, cloud, clock)
         texture_of_points = _texture(mesh, surface, cloud, options.texture, clock)
@@ -256,14 +260,14 @@ def reconstruct(
             facts = mesh_facts(mesh)
             error_reached = achieved_error(mesh, surface, prepared.oriented.surface, options.meshing.error)
             free = options.meshing.error is not None
-            wanted = len(mesh.vertices_in_unit) if free else options.vertices_of(found.points_shown)
+            wanted = len(mesh.vertices_in_unit) if free else budgeted.vertices_of(found.points_shown)
             distances, agreement = compare(mesh, prepared, wanted)
             tell(progress, "measuring", 1)
     journal.source["format"] = cloud.format
     if cloud.crs is not None:
         journal.source["crs"] = cloud.crs
     journal.counts |= cloud.counts() | found.counts() | {"normals_estimated": prepared.oriented.estimated}
-    journal.choices += [*prepared.choices, *count_choices, *embedded.choices, *mesh.choices]
+    journal.choices += [*prepared.choices, *noise_choices, *count_choices, *embedded.choices, *mesh.choices]
     journal.meshing |= mesh.statistics
     journal.notes += [*cloud.notes, *found.notes, *prepared.notes, *faced.notes]
     journal.notes += coarseness(distances, surface.frame.diagonal, options.meshing)

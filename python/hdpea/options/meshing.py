@@ -18,7 +18,7 @@ class MeshingOptions(Checked):
     """How the particles become a mesh (``hdpea.mesh.extraction``)."""
 
     vertices: int | None = option(
-        None, f"vertices wanted; default: one for every {POINTS_PER_VERTEX} points", minimum=4
+        None, f"vertices wanted; default: one for every {POINTS_PER_VERTEX} points, fewer if these are noisy", minimum=4
     )
     faces: int | None = option(None, "faces wanted, instead of `vertices`", minimum=4)
     error: Length | None = option(

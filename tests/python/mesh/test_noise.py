@@ -1,0 +1,59 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A number of vertices that nobody asks for is no larger than noise allows."""
+
+from __future__ import annotations
+
+import numpy as np
+from helpers import clouds
+
+from hdpea import Reconstruction, reconstruct
+from hdpea.geometry.sampling import sample_surface
+from hdpea.mesh.noise import within_noise
+from hdpea.options import DenoisingOptions, MeshingOptions, Options
+from hdpea.reading.cloud import cleaned_cloud
+from hdpea.surface.preparation import prepare_surface
+
+POINTS = 5000
+
+
+def wanted(points: clouds.Array, options: Options | None = None) -> int:
+    prepared = prepare_surface(cleaned_cloud(points), denoising=DenoisingOptions())
+    return within_noise(options or Options(), prepared, len(points))[0].vertices_of(len(points))
+
+
+def wall(deviation: float) -> clouds.Array:
+    """Return a flat square with noise of so many spacings."""
+    random = np.random.default_rng(0)
+    return np.column_stack([random.random((POINTS, 2)), deviation / np.sqrt(POINTS) * random.normal(size=POINTS)])
+
+
+def noisy_sphere(deviation: float) -> clouds.Array:
+    noise = np.random.default_rng(0).normal(scale=deviation * np.sqrt(4 * np.pi / POINTS), size=(POINTS, 1))
+    return (1 + noise) * clouds.sphere(POINTS)[0]
+
+
+def test_a_noisy_wall_gets_few_vertices_and_a_clean_one_what_its_points_allow() -> None:
+    assert wanted(wall(0.0)) == POINTS // 8
+    assert wanted(wall(0.4)) <= POINTS // 64
+
+
+def test_a_little_noise_changes_nothing() -> None:
+    assert wanted(noisy_sphere(0.1)) == POINTS // 8
+
+
+def test_what_is_asked_for_is_made_whatever_the_noise() -> None:
+    assert wanted(wall(0.4), Options(meshing=MeshingOptions(vertices=400))) == 400
+
+
+def error_of(mesh: Reconstruction) -> float:
+    """Return how far the faces of a mesh are off the unit sphere, root mean square."""
+    samples = sample_surface(mesh.vertices, mesh.faces, 5000).points
+    return float(np.sqrt(np.square(np.linalg.norm(samples, axis=1) - 1).mean()))
+
+
+def test_a_noisy_sphere_is_as_near_to_the_truth_with_the_fewer_vertices() -> None:
+    points = noisy_sphere(0.7)
+    few, many = reconstruct(points), reconstruct(points, vertices=POINTS // 8)
+    assert len(few.vertices) < 0.6 * len(many.vertices)
+    assert any(choice.name == "vertices" for choice in few.report.choices)
+    assert error_of(few) <= 1.05 * error_of(many)
