@@ -24,8 +24,11 @@ vertices, or a quarter, and lie 0.98 times as far off the truth as with one for 
 SAMPLES = 1_000
 """Points at which it is measured what a plane misses."""
 
-FEWER = (16, 32, 64, 128)
-"""Points per vertex that may be enough, one after the other: the most are those of a flat wall."""
+FEWER = (16, 32, 64)
+"""Points per vertex that may be enough, one after the other: the most are those of a flat wall.
+
+What planes of more points miss is less than chance tells: a sphere of 20,000 with noise of 1.4 spacings and a share of
+outliers was given one for every 128, and its error grew by 7 %."""
 
 PLANE = 2
 """Points of a plane for each point per vertex: on a sphere a plane through 1.25 misses as much as triangles do."""
