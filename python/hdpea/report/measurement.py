@@ -62,7 +62,7 @@ def coarseness(distances: Distances, diagonal: float, options: MeshingOptions) -
     if share > HARDLY_SHOWN and not options.any_size:
         yield (
             f"So few vertices hardly show the shape: the points are {share:.1%} of its size off the mesh (rms). "
-            "Ask for more, or for none: the default is one for every 8 points."
+            "Ask for more, or leave the number to hdpea."
         )
 
 
