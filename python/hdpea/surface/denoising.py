@@ -53,7 +53,8 @@ def denoised(
     method, choices = _method(options, roughness, oriented.estimated > 0)
     with core_errors_translated():
         # Noise as wide as the points are apart lifts points above others, too.
-        told_apart = options.denoise == "auto" and roughness.noise <= ROUGH
+        # And computed sides may be wrong where walls are thin.
+        told_apart = options.denoise == "auto" and roughness.noise <= ROUGH and not oriented.computed_sides
         layered = told_apart and have_layers(surface.points_in_unit, surface.normals)
     if layered:
         method, choices = "mls", (Choice("denoise", "mls", "", LAYERED),)

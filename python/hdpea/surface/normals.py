@@ -16,7 +16,6 @@ from hdpea.options import NormalOptions
 from hdpea.options.choice import Choice
 from hdpea.runtime.progress import ProgressCallback, of_phase, tell
 from hdpea.surface.given_signs import GivenSigns, given_signs
-from hdpea.surface.layer_orientation import orient_layers
 from hdpea.surface.orientation import SignEvidence, Vectors, orient, require_signs
 from hdpea.surface.plausibility import are_normals
 from hdpea.surface.surface import NEIGHBORS, Surface, require_surface
@@ -130,15 +129,7 @@ def oriented_surface(
         origin, sensors = frame.to_unit(np.zeros(3)), _sensors(frame, sensors_in_world)
         evidence = SignEvidence(trusted, ~usable, nearest, roughness, origin, sensors, signs)
         seen_from = _seen_from(frame, sensors_in_world, options) if options.orient == "viewpoint" else None
-        layers = None
-        unknown = not usable.any() and sensors is None and options.normal_neighbors is None
-        if options.orient == "auto" and unknown:
-            layers = orient_layers(points, neighbors, evidence, of_phase(progress, "normals"))
-        if layers is None:
-            orientation = orient(points, directions, evidence, options.orient, seen_from, of_phase(progress, "normals"))
-        else:
-            orientation = layers
-            choices = (Choice("normal_neighbors", NEIGHBORS, "points", "layers a few spacings apart"),)
+        orientation = orient(points, directions, evidence, options.orient, seen_from, of_phase(progress, "normals"))
         if options.orient == "auto":
             choices += (Choice("orient", orientation.method, "", orientation.why),)
     tell(progress, "normals", 1)

@@ -201,10 +201,10 @@ def _as_deciding_points(
         roughness=thinner,
     )
     decided = _by_agreement(few, np.ascontiguousarray(directions[deciding]), known, progress)
-    return replace(decided, normals=followed(points, directions, few, decided.normals))
+    return replace(decided, normals=_followed(points, directions, few, decided.normals))
 
 
-def followed(points: Vectors, directions: Vectors, deciding: Vectors, normals: Vectors) -> Vectors:
+def _followed(points: Vectors, directions: Vectors, deciding: Vectors, normals: Vectors) -> Vectors:
     """Turn the directions (n, 3) as the normals (m, 3) of the deciding points (m, 3) near them that are most alike."""
     nearest = _core.nearest_neighbors(deciding, points, FOLLOWED)
     alike = np.einsum("nc,nkc->nk", directions, normals[nearest])

@@ -13,17 +13,13 @@ from hdpea import reconstruct
 from hdpea.surface.layers import have_layers
 
 
-@pytest.mark.parametrize("with_normals", [False, True])
 @pytest.mark.parametrize("spacings", [1.0, 2.0])
-def test_two_scans_of_a_ball_give_one(spacings: float, with_normals: bool) -> None:
-    points, normals = two_scans_of_a_ball(2500, spacings)
-    assert_ball(reconstruct(points, normals if with_normals else None))
+def test_two_scans_of_a_ball_give_one(spacings: float) -> None:
+    assert_ball(reconstruct(*two_scans_of_a_ball(2500, spacings)))
 
 
-@pytest.mark.parametrize("with_normals", [False, True])
-def test_halves_that_overlap_are_joined_along_one_seam(with_normals: bool) -> None:
-    points, normals = overlapping_halves(2500, 1.0, 0.2)
-    assert_ball(reconstruct(points, normals if with_normals else None), within=0.1, full=1.08 * BALL)
+def test_halves_that_overlap_are_joined_along_one_seam() -> None:
+    assert_ball(reconstruct(*overlapping_halves(2500, 1.0, 0.2)), within=0.1, full=1.08 * BALL)
 
 
 def test_a_wall_whose_layers_face_the_same_way_is_one_sheet() -> None:
