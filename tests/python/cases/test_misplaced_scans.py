@@ -6,8 +6,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from helpers.clouds import Array, sphere_points
-from helpers.raw_clouds import overlapping_halves, two_scans_of_a_ball, two_scans_of_a_wall
-from helpers.raw_meshes import BALL, area, assert_ball, middles, share_against
+from helpers.raw_clouds import two_scans_of_a_ball, two_scans_of_a_wall
+from helpers.raw_meshes import area, assert_ball, middles, share_against
 
 from hdpea import reconstruct
 from hdpea.surface.layers import have_layers
@@ -16,10 +16,6 @@ from hdpea.surface.layers import have_layers
 @pytest.mark.parametrize("spacings", [1.0, 2.0])
 def test_two_scans_of_a_ball_give_one(spacings: float) -> None:
     assert_ball(reconstruct(*two_scans_of_a_ball(2500, spacings)))
-
-
-def test_halves_that_overlap_are_joined_along_one_seam() -> None:
-    assert_ball(reconstruct(*overlapping_halves(2500, 1.0, 0.2)), within=0.1, full=1.08 * BALL)
 
 
 def test_a_wall_whose_layers_face_the_same_way_is_one_sheet() -> None:

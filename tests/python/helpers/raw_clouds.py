@@ -58,13 +58,6 @@ def two_scans_of_a_wall(count: int, spacings: float) -> tuple[Array, Array]:
     return np.vstack(layers), np.tile([0.0, 0.0, 1.0], (2 * count, 1))
 
 
-def overlapping_halves(count: int, spacings: float, overlap: float) -> tuple[Array, Array]:
-    """Return two halves of a unit sphere that overlap, one of them so many spacings too large; with true normals."""
-    one, other = sphere_points(count, 1), sphere_points(count, 2)
-    one, other = one[one[:, 0] < overlap], other[other[:, 0] > -overlap]
-    return np.vstack([one, other * (1 + spacings * spacing_of(count))]), np.vstack([one, other])
-
-
 def rings(rows: int, ratio: float) -> Array:
     """Return circles of latitude of the unit sphere, turned at random, `ratio` times denser along than across."""
     circles = []
