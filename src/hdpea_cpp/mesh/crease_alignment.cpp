@@ -145,7 +145,8 @@ class Alignment {
   std::vector<Crossing> find_crossings() const {
     std::vector<Index> edges;
     for (Index h = 0; h < mesh_.halfedges(); ++h) {
-      if (mesh_.opposite(h) > h && !held_[mesh_.source(h)] && !held_[mesh_.target(h)]) {
+      const bool once = mesh_.opposite(h) < 0 || mesh_.opposite(h) > h;
+      if (once && !held_[mesh_.source(h)] && !held_[mesh_.target(h)]) {
         edges.push_back(h);
       }
     }
@@ -223,7 +224,7 @@ class Alignment {
   void flip(const std::vector<Crossing>& crossings) {
     for (const Crossing& each : crossings) {
       const Index h = each.halfedge;
-      if (held_[mesh_.source(h)] || held_[mesh_.target(h)]) continue;
+      if (mesh_.opposite(h) < 0 || held_[mesh_.source(h)] || held_[mesh_.target(h)]) continue;
       if (!held_[mesh_.apex(h)] || !held_[mesh_.apex(mesh_.opposite(h))]) continue;
       flipped_ += flip_safely(h);
     }

@@ -89,7 +89,7 @@ class Search {
     const double smooth = quadric_residual(around, (wedge->first + wedge->second).normalized());
     if (!(wedge->residual <= share * smooth)) return std::nullopt;
     return CreaseSample{wedge->position, wedge->direction, wedge->first,
-                        wedge->second,   around.spacing,   wedge->residual};
+                        wedge->second,   around.spacing,   wedge->residual / smooth};
   }
 
   static std::vector<CreaseSample> gathered(const Found& found) {
@@ -113,9 +113,16 @@ Creases find_creases(const PointsRef& points, const PointsRef& normals, const Cr
   require_rows(normals, points.rows(), "normals");
   require_finite(normals, "normals");
   require(options.neighbors >= kOfSpacing, "a crease needs 12 neighbors or more");
-  const Search search(points, normals, options);
-  std::vector<CreaseSample> samples = search.around_points();
-  for (int round = 0; round < rounds; ++round) samples = search.around_samples(samples);
+  std::vector<CreaseSample> samples;
+  // Few points see a crease that turns, many one that is noisy; the better fit of both is kept.
+  for (Index neighbors : {options.neighbors / 2 + 2, options.neighbors}) {
+    CreaseOptions scale = options;
+    scale.neighbors = neighbors;
+    const Search search(points, normals, scale);
+    std::vector<CreaseSample> found = search.around_points();
+    for (int round = 0; round < rounds; ++round) found = search.around_samples(found);
+    samples.insert(samples.end(), found.begin(), found.end());
+  }
   samples = on_long_lines(thinned(samples), options.min_length);
   std::vector<Vector> corners = join_at_corners(samples);
   return {std::move(samples), std::move(corners)};

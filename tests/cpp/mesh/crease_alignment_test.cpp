@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hdpea_cpp/mesh/crease_alignment.hpp"
+
+#include <gtest/gtest.h>
+
+#include "hdpea_cpp/base/errors.hpp"
+#include "hdpea_cpp/mesh/mesh_check.hpp"
+#include "helpers/shapes.hpp"
+
+namespace hdpea {
+namespace {
+
+/// The grid folded by a right angle along x = 0.45, where none of its vertices lie.
+shapes::Mesh folded_grid() {
+  auto grid = shapes::grid(10, 10);
+  for (Index v = 0; v < grid.vertices.rows(); ++v) {
+    const double beyond = grid.vertices(v, 0) - 0.45;
+    if (beyond > 0) grid.vertices.row(v) << 0.45, grid.vertices(v, 1), -beyond;
+  }
+  return grid;
+}
+
+Creases fold() {
+  Creases creases;
+  for (double y = 0; y <= 1; y += 0.02) {
+    creases.samples.push_back({{0.45, y, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 0}, 0.04, 0});
+  }
+  return creases;
+}
+
+TEST(CreaseAlignment, LeavesNoEdgeAcrossTheCrease) {
+  const auto grid = folded_grid();
+  const AlignedMesh aligned = align_to_creases(grid.vertices, grid.faces, fold());
+  for (const auto& face : aligned.faces.rowwise()) {
+    bool first = false, second = false;
+    for (Index v : face) {
+      first = first || aligned.vertices(v, 0) < 0.45 - 1e-9;
+      second = second || aligned.vertices(v, 2) < -1e-9;
+    }
+    EXPECT_FALSE(first && second);
+  }
+  EXPECT_GT(crease_edges(aligned.vertices, aligned.faces, fold()).rows(), 7);
+}
+
+TEST(CreaseAlignment, KeepsTheTopology) {
+  const auto grid = folded_grid();
+  const AlignedMesh aligned = align_to_creases(grid.vertices, grid.faces, fold());
+  const MeshCheck before = check_mesh(grid.vertices, grid.faces), after = check_mesh(aligned.vertices, aligned.faces);
+  EXPECT_TRUE(after.manifold() && after.oriented());
+  EXPECT_EQ(after.euler_characteristic, before.euler_characteristic);
+  EXPECT_EQ(after.boundary_loops, before.boundary_loops);
+}
+
+TEST(CreaseAlignment, WithoutCreasesChangesNothing) {
+  const auto grid = folded_grid();
+  const AlignedMesh same = align_to_creases(grid.vertices, grid.faces, {});
+  EXPECT_EQ(same.vertices, grid.vertices);
+  EXPECT_EQ(same.faces, grid.faces);
+  EXPECT_EQ(crease_edges(grid.vertices, grid.faces, {}).rows(), 0);
+}
+
+TEST(CreaseAlignment, RefusesFacesOfVerticesThatDoNotExist) {
+  auto grid = folded_grid();
+  grid.faces(0, 0) = grid.vertices.rows();
+  EXPECT_THROW(align_to_creases(grid.vertices, grid.faces, fold()), InvalidArgument);
+  EXPECT_THROW(crease_edges(grid.vertices, grid.faces, fold()), InvalidArgument);
+}
+
+}  // namespace
+}  // namespace hdpea

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hdpea_cpp/points/wedge.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace hdpea {
+namespace {
+
+/// Two half-planes that meet along the y axis at a right angle, facing +z and +x.
+Neighborhood corner_of_a_box() {
+  Neighborhood around{{}, {}, {0.2, 0, 0.1}, 0.5};
+  for (int i = 1; i <= 4; ++i) {
+    for (int j = -2; j <= 2; ++j) {
+      around.points.emplace_back(-0.5 * i, 0.5 * j, 0);
+      around.normals.emplace_back(0, 0, 1);
+      around.points.emplace_back(0, 0.5 * j, -0.5 * i);
+      around.normals.emplace_back(1, 0, 0);
+    }
+  }
+  return around;
+}
+
+TEST(Wedge, OfTwoHalfPlanesIsTheirLine) {
+  const Neighborhood around = corner_of_a_box();
+  const auto [first, second] = extreme_normals(around);
+  const auto wedge = fit_wedge(around, first, second);
+  ASSERT_TRUE(wedge);
+  EXPECT_LT(wedge->position.norm(), 1e-9);
+  EXPECT_NEAR(std::abs(wedge->direction.y()), 1, 1e-9);
+  EXPECT_NEAR(wedge->residual, 0, 1e-12);
+  EXPECT_GT(quadric_residual(around, (first + second).normalized()), 0.01);
+}
+
+TEST(Wedge, OfOnePlaneIsNone) {
+  Neighborhood around = corner_of_a_box();
+  for (auto& point : around.points) point.z() = 0;
+  for (auto& normal : around.normals) normal = {0, 0, 1};
+  const auto [first, second] = extreme_normals(around);
+  EXPECT_FALSE(fit_wedge(around, first, second));
+}
+
+TEST(Wedge, OfFewPointsIsNone) {
+  Neighborhood around = corner_of_a_box();
+  around.points.resize(6);
+  around.normals.resize(6);
+  EXPECT_FALSE(fit_wedge(around, {0, 0, 1}, {1, 0, 0}));
+}
+
+}  // namespace
+}  // namespace hdpea
