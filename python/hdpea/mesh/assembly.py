@@ -60,11 +60,9 @@ def assemble_mesh(
     points_shown = points_shown or len(surface.points_in_unit)
     mesh = _mesh_of_particles(surface, coordinates, bases, options, points_shown, progress, clock)
     with clock.stage("refinement"):
-        mesh = refine_mesh(mesh, surface, options.refinement, of_phase(progress, "refinement"))
         creases = find_creases(surface)
-        if len(creases.positions):
-            mesh = align_to_creases(mesh, creases)
-            mesh = refine_mesh(mesh, surface, options.refinement, of_phase(progress, "refinement"))
+        mesh = align_to_creases(mesh, creases)
+        mesh = refine_mesh(mesh, surface, options.refinement, of_phase(progress, "refinement"))
     bound = None
     if options.meshing.error is not None:
         bound = ErrorBound(surface, surface.frame.length_to_unit(options.meshing.error))
