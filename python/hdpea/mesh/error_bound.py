@@ -14,6 +14,7 @@ from hdpea.errors import core_errors_translated
 from hdpea.geometry.sampling import sample_surface
 from hdpea.geometry.triangles import mesh_area
 from hdpea.mesh.extraction import Mesh
+from hdpea.mesh.repair import repair_mesh
 from hdpea.mesh.simplification import simplified
 from hdpea.runtime.progress import PhaseCallback
 from hdpea.surface.surface import Surface, disk_radii
@@ -101,6 +102,12 @@ def on_patches(
     corners = np.arange(3 * len(patches)).reshape(-1, 3)
     found = _core.closest_surface_points(patches.reshape(-1, 3), corners, places)
     return np.asarray(found.distance <= near)
+
+
+def mended_within(mesh: Mesh, bound: ErrorBound) -> Mesh:
+    """Return the mesh without its self-intersections, unless that would break an error that it keeps."""
+    mended = repair_mesh(mesh)
+    return mended if bound.kept_by(mended) or not bound.kept_by(mesh) else mesh
 
 
 def simplify_within(mesh: Mesh, bound: ErrorBound, progress: PhaseCallback | None = None) -> Mesh:
