@@ -63,7 +63,7 @@ simplification, and another refinement after it, only if fewer vertices are want
 
 @dataclass(frozen=True)
 class Level:
-    """A coarser version of a mesh: vertices (v, 3) in world units, faces (f, 3) and attributes as of the mesh itself."""
+    """A coarser version of a mesh: vertices (v, 3) in world units, faces (f, 3) and attributes, as of the mesh."""
 
     vertices: NDArray[np.float64]
     faces: NDArray[np.int64]

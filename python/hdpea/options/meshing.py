@@ -28,8 +28,8 @@ class MeshingOptions(Checked):
     )
     lod: int = option(
         1,
-        "levels of detail to write: each has half the faces of the one before, or with `error` may be twice as far off; "
-        "mesh.obj, mesh.lod1.obj and so on",
+        "levels of detail to write, as mesh.obj, mesh.lod1.obj and so on: each is made from the one before, and has "
+        "half its faces or, with `error`, may be twice as far from the points",
         minimum=1,
         maximum=16,
     )

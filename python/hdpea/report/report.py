@@ -38,7 +38,7 @@ class MeshFacts:
 
 @dataclass(frozen=True)
 class LevelFacts:
-    """What a coarser level of the mesh is; ``error`` is its larger distance from the points, as in ``AchievedError``."""
+    """What a coarser level of the mesh is; ``error`` is its largest distance from the points, both ways."""
 
     vertices: int
     faces: int
