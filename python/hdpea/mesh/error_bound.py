@@ -25,7 +25,7 @@ PLACES = 40_000
 NEAREST = 24
 """Points near a place of which one must show it: beside a crease most lie on the other side of it."""
 
-TIGHTENED = (1.0, 0.9, 0.75)
+TIGHTENED = (1.0, 0.97, 0.9, 0.75)
 """Shares of the error that are tried one after the other, since places between those tried may be a little farther."""
 
 ROUNDING = 1 + 1e-6
