@@ -19,13 +19,13 @@ from hdpea.mesh.simplification import simplified
 from hdpea.runtime.progress import PhaseCallback
 from hdpea.surface.surface import Surface, disk_radii
 
-PLACES = 40_000
+PLACES = 100_000
 """Places of the mesh that are measured, besides its vertices."""
 
 NEAREST = 24
 """Points near a place of which one must show it: beside a crease most lie on the other side of it."""
 
-TIGHTENED = (1.0, 0.97, 0.9, 0.75)
+TIGHTENED = (0.98, 0.95, 0.85, 0.7)
 """Shares of the error that are tried one after the other, since places between those tried may be a little farther."""
 
 ROUNDING = 1 + 1e-6

@@ -20,7 +20,7 @@ constexpr double kRounding = 1 + 1e-9;
 constexpr std::size_t kNearest = 24;
 
 /// Of a face, or of its edge, that are tried at most, however near the points are to one another.
-constexpr double kMostPlaces = 10'000;
+constexpr double kMostPlaces = 2'000;
 
 /// A correction is worth it for at most this share of the points, and if the corner moves by no more than so many times
 /// what the worst point is off.
@@ -142,7 +142,7 @@ PointLinks::PointLinks(const EditableMesh& mesh, const DisksRef& disks, double e
   // The median disk holds a dozen points.
   Eigen::VectorXd radii = disks.radii;
   std::nth_element(radii.begin(), radii.begin() + radii.size() / 2, radii.end());
-  step_ = std::max(radii[radii.size() / 2], error_) / 3;
+  step_ = std::max(radii[radii.size() / 2], error_) / 5;
   std::vector<Index> numbers;
   for (Index f = 0; f < mesh.face_numbers(); ++f) {
     if (mesh.has_face(f)) numbers.push_back(f);
