@@ -5,10 +5,10 @@
 
 Each mesh of FOLDER is sampled (40,000 points with normals, seeded by its name) and reconstructed to each error, in
 percent of the diagonal. Nothing here is shared with the implementation: distances to meshes are libigl's, the nearest
-points SciPy's. Columns, in errors: the farthest point from the mesh; the farthest place of the mesh from the plane of
-the nearest of its 24 nearest points; the root mean square distance to the truth, the larger of both ways. The rival is
-screened Poisson by MeshLab, depth 8, collapsed by fast-simplification to the same root mean square distance
-(bisection); `never` where all its triangles do not reach it. Needs the `bench` dependency group and
+points SciPy's. Columns, in errors: the farthest point from the mesh, strays that were dropped apart; the farthest place
+of the mesh from the plane of one of its 24 nearest points; the root mean square distance to the truth, the larger of
+both ways. The rival is screened Poisson by MeshLab, depth 8, collapsed by fast-simplification to the same root mean
+square distance (bisection); `never` where all its triangles do not reach it. Needs the `bench` dependency group and
 `pip install 'hdpea[benchmark]'`.
 """
 
@@ -93,9 +93,13 @@ class Model:
         to_truth = distances(sampled(mesh, SAMPLES, 2)[0], self.truth)
         return float(max(np.sqrt(np.mean(to_mesh**2)), np.sqrt(np.mean(to_truth**2))))
 
-    def farthest(self, mesh: Triangles) -> tuple[float, float]:
-        """Return how far a point is from a mesh, and a place of the mesh from its points' planes, at most."""
-        points, normals = self.cloud
+    def farthest(self, mesh: Triangles, dropped: Array) -> tuple[float, float]:
+        """Return how far a point is from a mesh, and a place of the mesh from its points' planes, at most.
+
+        Points that were dropped as strays do not count.
+        """
+        kept = ~(self.cloud[0][:, None] == dropped[None]).all(axis=2).any(axis=1)
+        points, normals = (each[kept] for each in self.cloud)
         places = np.vstack([mesh[0], sampled(mesh, SAMPLES, 3)[0]])
         nearest = cKDTree(points).query(places, NEAREST)[1]
         heights = np.einsum("pkc,pkc->pk", places[:, None] - points[nearest], normals[nearest])
@@ -121,7 +125,7 @@ def line_of(model: Model, percent: float) -> str:
     """Reconstruct a model to an error; return its row of the table."""
     made = reconstruct(*model.cloud, error=f"{percent}%")
     mesh, error = (made.vertices, made.faces), percent / 100 * model.diagonal
-    point, place = model.farthest(mesh)
+    point, place = model.farthest(mesh, made.dropped.points)
     rms = model.rms(mesh)
     rival = model.rival_triangles(rms)
     kept = "yes" if max(point, place) <= error * (1 + 1e-6) else "no"

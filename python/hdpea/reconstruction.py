@@ -20,6 +20,7 @@ from hdpea.mesh.assembly import assemble_mesh
 from hdpea.mesh.attributes import vertex_attributes
 from hdpea.mesh.budget import particles_wanted
 from hdpea.mesh.extraction import Mesh
+from hdpea.mesh.levels import coarser_levels
 from hdpea.mesh.noise import within_noise
 from hdpea.mesh.sides import FacedMesh, facing_out
 from hdpea.mesh.texture import require_colors, texture_of
@@ -29,7 +30,7 @@ from hdpea.reading.attributes import split_colors
 from hdpea.reading.cloud import PointCloud, cleaned_cloud
 from hdpea.reading.objects import PointsLike
 from hdpea.report.achieved_error import achieved_error
-from hdpea.report.measurement import coarseness, compare, mesh_facts, missed_targets
+from hdpea.report.measurement import coarseness, compare, level_facts, mesh_facts, missed_targets
 from hdpea.report.report import Journal, Report
 from hdpea.runtime.clock import StageClock
 from hdpea.runtime.progress import ProgressCallback, tell
@@ -37,7 +38,7 @@ from hdpea.runtime.pytorch import check_pytorch
 from hdpea.runtime.threads import limited_threads
 from hdpea.surface.preparation import prepare_surface
 from hdpea.surface.surface import Surface
-from hdpea.writing.meshes import write_mesh
+from hdpea.writing.meshes import level_path, write_mesh
 from hdpea.writing.objects import as_open3d, as_pyvista, as_trimesh
 
 if TYPE_CHECKING:
@@ -61,6 +62,15 @@ simplification, and another refinement after it, only if fewer vertices are want
 
 
 @dataclass(frozen=True)
+class Level:
+    """A coarser version of a mesh: vertices (v, 3) in world units, faces (f, 3) and attributes, as of the mesh."""
+
+    vertices: NDArray[np.float64]
+    faces: NDArray[np.int64]
+    attributes: Mapping[str, NDArray[Any]] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
 class Reconstruction:
     """A mesh, and the report of how it was made.
 
@@ -81,6 +91,8 @@ class Reconstruction:
         The coordinate reference system of the vertices, if the cloud's is known.
     texture
         An image of the colours of the points and how it lies on the mesh, if it was asked for.
+    levels
+        Coarser versions, each made from the one before, if `options.meshing.lod` asks for them.
     """
 
     vertices: NDArray[np.float64]
@@ -90,10 +102,16 @@ class Reconstruction:
     attributes: Mapping[str, NDArray[Any]] = field(default_factory=dict)
     crs: str | None = None
     texture: Texture | None = None
+    levels: tuple[Level, ...] = ()
 
     def write(self, path: str | Path) -> None:
-        """Write the mesh with its attributes, its texture and where it lies, as ``hdpea.write_mesh`` does."""
+        """Write the mesh with its attributes, its texture and where it lies, as ``hdpea.write_mesh`` does.
+
+        Its levels are written beside it, without the texture: those of mesh.obj are mesh.lod1.obj and so on.
+        """
         write_mesh(path, self.vertices, self.faces, self.attributes, self.crs, self.texture)
+        for number, level in enumerate(self.levels, start=1):
+            write_mesh(level_path(Path(path), number), level.vertices, level.faces, level.attributes, self.crs)
 
     def to_trimesh(self) -> trimesh.Trimesh:
         """Return it with colours, the other attributes as ``vertex_attributes``."""
@@ -253,6 +271,7 @@ def reconstruct(
         # Before any piece is turned, as its points are not.
         carried = _carried(mesh, surface, cloud, clock)
         texture_of_points = _texture(mesh, surface, cloud, options.texture, clock)
+        levels = _levels(mesh, surface, prepared.oriented.computed_sides, options, cloud, journal)
         faced = facing_out(mesh) if prepared.oriented.computed_sides else FacedMesh(mesh)
         mesh = faced.mesh
         with clock.stage("measuring"):
@@ -275,7 +294,25 @@ def reconstruct(
     journal.missed += [*error_reached.missed(), *agreement.missed()]
     vertices_in_world = surface.frame.to_world(mesh.vertices_in_unit)
     report = Report.of(journal, facts, distances, agreement, error_reached)
-    return Reconstruction(vertices_in_world, mesh.faces, report, found.dropped, carried, cloud.crs, texture_of_points)
+    return Reconstruction(
+        vertices_in_world, mesh.faces, report, found.dropped, carried, cloud.crs, texture_of_points, levels
+    )
+
+
+def _levels(
+    mesh: Mesh, surface: Surface, computed_sides: bool, options: Options, cloud: PointCloud, journal: Journal
+) -> tuple[Level, ...]:
+    """Return the coarser levels of a mesh; a stage, and in the journal, only where there are any."""
+    if options.meshing.lod == 1:
+        return ()
+    made = list[Level]()
+    with journal.clock.stage("levels"):
+        for each in coarser_levels(mesh, surface, options):
+            faces = (facing_out(each).mesh if computed_sides else each).faces
+            attributes = vertex_attributes(each, surface, cloud.attributes)
+            made.append(Level(surface.frame.to_world(each.vertices_in_unit), faces, attributes))
+            journal.levels.append(level_facts(each, surface))
+    return tuple(made)
 
 
 def _carried(mesh: Mesh, surface: Surface, cloud: PointCloud, clock: StageClock) -> dict[str, NDArray[Any]]:

@@ -33,16 +33,21 @@ class Job:
 
     def outputs(self) -> list[tuple[Path, str]]:
         """Return the files that are to be written, and the kind of each."""
+        from hdpea.writing.meshes import level_path
         from hdpea.writing.obj import texture_files
         from hdpea.writing.placement import placement_file
 
         mesh = self.destination.output
-        kinds = {"mesh": mesh, "report": self.report, "picture": self.picture, "page": self.page}
-        kinds["placement"] = mesh and placement_file(mesh)
+        meshes = [] if mesh is None else [mesh, *(level_path(mesh, n) for n in range(1, self.options.meshing.lod))]
+        kinds = {"report": self.report, "picture": self.picture, "page": self.page}
         kinds["set of dropped points"] = self.dropped
         if mesh is not None and mesh.suffix.lower() == ".obj" and self.options.texture is not None:
             kinds |= texture_files(mesh)
-        return [(path, kind) for kind, path in kinds.items() if path is not None]
+        return [
+            *((path, "mesh") for path in meshes),
+            *((placement_file(path), "placement") for path in meshes),
+            *((path, kind) for kind, path in kinds.items() if path is not None),
+        ]
 
 
 @dataclass(frozen=True)
@@ -140,11 +145,14 @@ def make_mesh(job: Job, progress: ProgressCallback | None) -> Report:
 
 
 def _write_mesh(destination: Destination, result: Reconstruction) -> None:
-    from hdpea.writing.meshes import mesh_content, write_mesh
+    from hdpea.writing.meshes import level_path, mesh_content, write_mesh
 
     mesh = result.vertices, result.faces, result.attributes, result.crs, result.texture
     if destination.output is not None:
         write_mesh(destination.output, *mesh)
+        for number, level in enumerate(result.levels, start=1):
+            path = level_path(destination.output, number)
+            write_mesh(path, level.vertices, level.faces, level.attributes, result.crs)
         return
     content, _ = mesh_content(destination.extension, *mesh)
     sys.stdout.buffer.write(content)

@@ -122,6 +122,8 @@ def command(
     ]
     if as_json and wanted[0].destination.output is None:
         raise UsageError("Standard output is for the mesh or for `as_json`, not for both.", "Give a `report` instead.")
+    if options.meshing.lod > 1 and wanted[0].destination.output is None:
+        raise UsageError("Standard output is for one mesh, not for the levels of `lod`.", "Name the mesh.")
     if out_dir is not None:
         _make_folder(out_dir)
     _check_outputs(wanted, [options.embedding.weights, config_of(ctx)], force)

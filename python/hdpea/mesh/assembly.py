@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from hdpea.mesh.budget import Budget
 from hdpea.mesh.creases import align_to_creases, find_creases, with_crease_edges_counted
-from hdpea.mesh.error_bound import ErrorBound, simplify_within
+from hdpea.mesh.error_bound import ErrorBound, mended_within, simplify_within
 from hdpea.mesh.extraction import Mesh, extract_mesh
 from hdpea.mesh.particles import spread_particles
 from hdpea.mesh.refinement import refine_mesh
@@ -76,10 +76,7 @@ def assemble_mesh(
             mesh = refine_mesh(mesh, surface, options.refinement, of_phase(progress, "refinement"))
     with clock.stage("repair"):
         tell(progress, "repair", 0)
-        mended = repair_mesh(mesh)
-        # An error that was asked for comes first.
-        if bound is None or bound.kept_by(mended) or not bound.kept_by(mesh):
-            mesh = mended
+        mesh = repair_mesh(mesh) if bound is None else mended_within(mesh, bound)
         tell(progress, "repair", 1)
     return with_crease_edges_counted(mesh, creases)
 

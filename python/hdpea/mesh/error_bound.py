@@ -14,17 +14,18 @@ from hdpea.errors import core_errors_translated
 from hdpea.geometry.sampling import sample_surface
 from hdpea.geometry.triangles import mesh_area
 from hdpea.mesh.extraction import Mesh
+from hdpea.mesh.repair import repair_mesh
 from hdpea.mesh.simplification import simplified
 from hdpea.runtime.progress import PhaseCallback
 from hdpea.surface.surface import Surface, disk_radii
 
-PLACES = 40_000
+PLACES = 100_000
 """Places of the mesh that are measured, besides its vertices."""
 
 NEAREST = 24
 """Points near a place of which one must show it: beside a crease most lie on the other side of it."""
 
-TIGHTENED = (1.0, 0.9, 0.75)
+TIGHTENED = (0.98, 0.95, 0.85, 0.7)
 """Shares of the error that are tried one after the other, since places between those tried may be a little farther."""
 
 ROUNDING = 1 + 1e-6
@@ -101,6 +102,12 @@ def on_patches(
     corners = np.arange(3 * len(patches)).reshape(-1, 3)
     found = _core.closest_surface_points(patches.reshape(-1, 3), corners, places)
     return np.asarray(found.distance <= near)
+
+
+def mended_within(mesh: Mesh, bound: ErrorBound) -> Mesh:
+    """Return the mesh without its self-intersections, unless that would break an error that it keeps."""
+    mended = repair_mesh(mesh)
+    return mended if bound.kept_by(mended) or not bound.kept_by(mesh) else mesh
 
 
 def simplify_within(mesh: Mesh, bound: ErrorBound, progress: PhaseCallback | None = None) -> Mesh:

@@ -26,6 +26,13 @@ class MeshingOptions(Checked):
         "make as few triangles as keep within this of the points, both ways, as 0.02 or 0.5%; `vertices` or `faces` "
         "are then the most there may be",
     )
+    lod: int = option(
+        1,
+        "levels of detail to write, as mesh.obj, mesh.lod1.obj and so on: each is made from the one before, and has "
+        "half its faces or, with `error`, may be twice as far from the points",
+        minimum=1,
+        maximum=16,
+    )
     fill_holes: Length | None = option(
         None, "fill holes up to this size across, as 0.02 or 1%; default: 4 times the spacing of the particles; 0: none"
     )

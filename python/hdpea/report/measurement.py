@@ -8,11 +8,13 @@ from collections.abc import Iterator
 from hdpea import _core
 from hdpea.errors import HdpeaError
 from hdpea.mesh.budget import Budget
+from hdpea.mesh.error_bound import ErrorBound
 from hdpea.mesh.extraction import Mesh
 from hdpea.options import MeshingOptions
 from hdpea.report.agreement import Agreement, agreement_of, distances_to
-from hdpea.report.report import Distances, MeshFacts
+from hdpea.report.report import Distances, LevelFacts, MeshFacts
 from hdpea.surface.preparation import Preparation
+from hdpea.surface.surface import Surface
 
 HARDLY_SHOWN = 0.01
 """Root mean square distance of the points to the mesh, in diagonals, from which on a mesh is said to be too coarse.
@@ -64,6 +66,19 @@ def coarseness(distances: Distances, diagonal: float, options: MeshingOptions) -
             f"So few vertices hardly show the shape: the points are {share:.1%} of its size off the mesh (rms). "
             "Ask for more, or leave the number to hdpea."
         )
+
+
+def level_facts(mesh: Mesh, surface: Surface) -> LevelFacts:
+    """Check a coarser level of a mesh, and measure it against the points.
+
+    Raises
+    ------
+    HdpeaError
+        If it is not manifold and oriented.
+    """
+    facts = mesh_facts(mesh)
+    reached = ErrorBound(surface, 0.0).reached(mesh).in_world(surface.frame.diagonal)
+    return LevelFacts(facts.vertices, facts.faces, reached.larger)
 
 
 def missed_targets(mesh: Mesh, facts: MeshFacts, options: MeshingOptions) -> Iterator[str]:

@@ -37,6 +37,15 @@ class MeshFacts:
 
 
 @dataclass(frozen=True)
+class LevelFacts:
+    """What a coarser level of the mesh is; ``error`` is its largest distance from the points, both ways."""
+
+    vertices: int
+    faces: int
+    error: float
+
+
+@dataclass(frozen=True)
 class Distances:
     """Distances from the points to the mesh, in world units and in spacings of the points."""
 
@@ -83,6 +92,8 @@ class Journal:
         Every value that was chosen automatically.
     meshing
         T3, T12, refused triangles, holes and so on, by name.
+    levels
+        The coarser levels of the mesh, finest first.
     notes
         Sentences for the user: what is unusual about this input or this result.
     missed
@@ -96,6 +107,7 @@ class Journal:
     counts: dict[str, int] = field(default_factory=dict)
     choices: list[Choice] = field(default_factory=list)
     meshing: dict[str, int | float] = field(default_factory=dict)
+    levels: list[LevelFacts] = field(default_factory=list)
     notes: list[str] = field(default_factory=list)
     missed: list[str] = field(default_factory=list)
     clock: StageClock = field(default_factory=StageClock)
@@ -137,6 +149,7 @@ class Report(Journal):
             "distances": self.distances.as_dict(),
             "agreement": asdict(self.agreement),
             "error": asdict(self.error),
+            "levels": [asdict(level) for level in self.levels],
             "notes": self.notes,
             "missed": self.missed,
             "stages": [asdict(stage) for stage in self.clock.stages],

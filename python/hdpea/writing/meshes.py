@@ -28,6 +28,17 @@ Faces = NDArray[np.int64]
 TEXTURED_FORMATS = (".obj", ".glb")
 
 
+def level_path(path: Path, number: int) -> Path:
+    """Return where a coarser level of the mesh at `path` is written: beside it, as mesh.lod1.obj for the first.
+
+    Examples
+    --------
+    >>> level_path(Path("out/mesh.obj"), 2).as_posix()
+    'out/mesh.lod2.obj'
+    """
+    return path.with_name(f"{path.stem}.lod{number}{path.suffix}")
+
+
 def write_mesh(
     path: str | Path,
     vertices: ArrayLike,

@@ -66,8 +66,6 @@ void EditableMesh::collapse(Index a, Index b, const Eigen::Vector3d& to) {
     }
     for (Index v : corners_[f]) {
       if (v != b) std::erase(faces_around_[v], f);
-      // The far corner of an ear goes with it.
-      if (v != b && faces_around_[v].empty()) --vertices_left_;
     }
     corners_[f] = {-1, -1, -1};
     --faces_left_;

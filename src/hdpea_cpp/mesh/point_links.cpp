@@ -19,6 +19,9 @@ constexpr double kRounding = 1 + 1e-9;
 /// Of so many nearest points, one must have its disk within the error. Beside a crease most lie on the other side.
 constexpr std::size_t kNearest = 24;
 
+/// Of a face, or of its edge, that are tried at most, however near the points are to one another.
+constexpr double kMostPlaces = 2'000;
+
 /// A correction is worth it for at most this share of the points, and if the corner moves by no more than so many times
 /// what the worst point is off.
 constexpr double kFewPoints = 0.1, kLongestLever = 10;
@@ -139,7 +142,7 @@ PointLinks::PointLinks(const EditableMesh& mesh, const DisksRef& disks, double e
   // The median disk holds a dozen points.
   Eigen::VectorXd radii = disks.radii;
   std::nth_element(radii.begin(), radii.begin() + radii.size() / 2, radii.end());
-  step_ = std::max(radii[radii.size() / 2], error_) / 3;
+  step_ = std::max(radii[radii.size() / 2], error_) / 5;
   std::vector<Index> numbers;
   for (Index f = 0; f < mesh.face_numbers(); ++f) {
     if (mesh.has_face(f)) numbers.push_back(f);
@@ -183,14 +186,14 @@ double PointLinks::worst_place(const NewFace& face, double enough) const {
   };
   for (int i = 0; i < 3; ++i) {
     const Eigen::Vector3d from = face.corners[i], along = face.corners[(i + 1) % 3] - from;
-    const int pieces = static_cast<int>(std::ceil(along.norm() / step_));
+    const int pieces = static_cast<int>(std::min(kMostPlaces, std::ceil(along.norm() / step_)));
     for (int k = 0; k < pieces; ++k) {
       if (!look_at(from + along * k / pieces)) return worst;
     }
   }
   // An even sequence of places (Roberts 2018), folded from a square into the triangle.
   constexpr double plastic = 1.32471795724474602596;
-  const Index count = static_cast<Index>(ab.cross(ac).norm() / 2 / (step_ * step_)) + 1;
+  const Index count = static_cast<Index>(std::min(kMostPlaces, ab.cross(ac).norm() / 2 / (step_ * step_))) + 1;
   for (Index k = 1; k <= count; ++k) {
     double u = 0.5 + static_cast<double>(k) / plastic, v = 0.5 + static_cast<double>(k) / (plastic * plastic);
     u -= std::floor(u);

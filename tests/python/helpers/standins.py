@@ -37,6 +37,7 @@ class Reconstruction:
     attributes: Mapping[str, NDArray[Any]] = field(default_factory=dict)
     crs: str | None = None
     texture: None = None
+    levels: tuple[Reconstruction, ...] = ()
 
 
 @dataclass

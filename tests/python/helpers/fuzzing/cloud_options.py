@@ -24,7 +24,7 @@ OFTEN = {
 }
 """How often a setting is given; the others are in one case of twelve."""
 
-MOST = {"iterations": 20, "rounds": 4, "threads": 3, "normal_neighbors": 80, "denoise_neighbors": 120}
+MOST = {"iterations": 20, "rounds": 4, "threads": 3, "normal_neighbors": 80, "denoise_neighbors": 120, "lod": 4}
 """Whole numbers are mostly drawn up to these, or up to half the number of points."""
 
 
@@ -36,6 +36,7 @@ LEAST = {
     "denoise_neighbors": 6,
     "whole_points": 1,
     "max_stretch": 1,
+    "lod": 1,
 }
 
 
