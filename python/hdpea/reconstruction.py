@@ -53,11 +53,13 @@ PHASES = (
     "meshing",
     "refinement",
     "simplification",
+    "remeshing",
     "repair",
     "measuring",
 )
 """The phases that ``progress`` hears of, in order; of denoising only if there is noise, or it is asked for, and of
-simplification, and another refinement after it, only if fewer vertices are wanted than particles are spread."""
+simplification, remeshing, and another refinement after them, only if fewer vertices are wanted than particles are
+spread."""
 
 
 @dataclass(frozen=True)
@@ -240,16 +242,18 @@ def reconstruct(
             found = surface_cloud(cloud, options.cleaning)
             cloud = found.cloud
             tell(progress, "cleaning", 1)
-        per_particle = len(cloud.points) / options.particles_of(found.points_shown)
-        prepared = prepare_surface(cloud, options.normals, options.denoising, per_particle, progress, clock)
+        per_vertex = len(cloud.points) / options.resolution_of(found.points_shown)
+        prepared = prepare_surface(cloud, options.normals, options.denoising, per_vertex, progress, clock)
         budgeted, noise_choices = within_noise(options, prepared, found.points_shown)
-        particles, count_choices = particles_wanted(budgeted, len(cloud.points), found.points_shown)
-        per_particle = len(cloud.points) / particles
-        surface = prepared.surface
+        surface, exact = prepared.surface, prepared.exact and not noise_choices
+        _, count_choices = particles_wanted(budgeted, len(cloud.points), found.points_shown, exact=exact)
+        resolution = budgeted.resolution_of(found.points_shown)
+        per_vertex = len(cloud.points) / resolution
         with clock.stage("embedding"):
-            embedded = embed_surface(surface, particles, options.embedding, progress, embedder)
-            bases = tangent_bases(embedded.coordinates, surface.normals, surface.neighbors, per_particle)
-        mesh = assemble_mesh(surface, embedded.coordinates, bases, budgeted, progress, clock, found.points_shown)
+            embedded = embed_surface(surface, resolution, options.embedding, progress, embedder)
+            bases = tangent_bases(embedded.coordinates, surface.normals, surface.neighbors, per_vertex)
+        shown = found.points_shown
+        mesh = assemble_mesh(surface, embedded.coordinates, bases, budgeted, progress, clock, shown, exact=exact)
         # Before any piece is turned, as its points are not.
         carried = _carried(mesh, surface, cloud, clock)
         texture_of_points = _texture(mesh, surface, cloud, options.texture, clock)
