@@ -242,17 +242,18 @@ def reconstruct(
             found = surface_cloud(cloud, options.cleaning)
             cloud = found.cloud
             tell(progress, "cleaning", 1)
-        per_vertex = len(cloud.points) / options.resolution_of(found.points_shown)
+        shown = found.points_shown
+        per_vertex = len(cloud.points) / options.resolution_of(shown)
         prepared = prepare_surface(cloud, options.normals, options.denoising, per_vertex, progress, clock)
-        budgeted, noise_choices = within_noise(options, prepared, found.points_shown)
-        surface, exact = prepared.surface, prepared.exact and not noise_choices
-        _, count_choices = particles_wanted(budgeted, len(cloud.points), found.points_shown, exact=exact)
-        resolution = budgeted.resolution_of(found.points_shown)
-        per_vertex = len(cloud.points) / resolution
+        budgeted, noise_choices = within_noise(options, prepared, shown)
+        # Under an error bound the collapses find out themselves what the points show.
+        exact = prepared.exact and not noise_choices and options.meshing.error is None
+        _, count_choices = particles_wanted(budgeted, len(cloud.points), shown, exact=exact)
+        surface, resolution = prepared.surface, budgeted.resolution_of(shown)
         with clock.stage("embedding"):
             embedded = embed_surface(surface, resolution, options.embedding, progress, embedder)
+            per_vertex = len(cloud.points) / resolution
             bases = tangent_bases(embedded.coordinates, surface.normals, surface.neighbors, per_vertex)
-        shown = found.points_shown
         mesh = assemble_mesh(surface, embedded.coordinates, bases, budgeted, progress, clock, shown, exact=exact)
         # Before any piece is turned, as its points are not.
         carried = _carried(mesh, surface, cloud, clock)
@@ -263,8 +264,7 @@ def reconstruct(
             tell(progress, "measuring", 0)
             facts = mesh_facts(mesh)
             error_reached = achieved_error(mesh, surface, prepared.oriented.surface, options.meshing.error)
-            free = options.meshing.error is not None
-            wanted = len(mesh.vertices_in_unit) if free else budgeted.vertices_of(found.points_shown)
+            wanted = budgeted.vertices_of(shown) if options.meshing.error is None else len(mesh.vertices_in_unit)
             distances, agreement = compare(mesh, prepared, wanted)
             tell(progress, "measuring", 1)
     journal.source["format"] = cloud.format
@@ -273,13 +273,20 @@ def reconstruct(
     journal.counts |= cloud.counts() | found.counts() | {"normals_estimated": prepared.oriented.estimated}
     journal.choices += [*prepared.choices, *noise_choices, *count_choices, *embedded.choices, *mesh.choices]
     journal.meshing |= mesh.statistics
-    journal.notes += [*cloud.notes, *found.notes, *prepared.notes, *faced.notes]
-    journal.notes += coarseness(distances, surface.frame.diagonal, options.meshing)
-    journal.missed += [*prepared.missed, *missed_targets(mesh, facts, options.meshing)]
-    journal.missed += [*error_reached.missed(), *agreement.missed()]
-    vertices_in_world = surface.frame.to_world(mesh.vertices_in_unit)
+    coarse = coarseness(distances, surface.frame.diagonal, options.meshing)
+    journal.notes += [*cloud.notes, *found.notes, *prepared.notes, *faced.notes, *coarse]
+    targets = missed_targets(mesh, facts, options.meshing)
+    journal.missed += [*prepared.missed, *targets, *error_reached.missed(), *agreement.missed()]
     report = Report.of(journal, facts, distances, agreement, error_reached)
-    return Reconstruction(vertices_in_world, mesh.faces, report, found.dropped, carried, cloud.crs, texture_of_points)
+    return Reconstruction(
+        surface.frame.to_world(mesh.vertices_in_unit),
+        mesh.faces,
+        report,
+        found.dropped,
+        carried,
+        cloud.crs,
+        texture_of_points,
+    )
 
 
 def _carried(mesh: Mesh, surface: Surface, cloud: PointCloud, clock: StageClock) -> dict[str, NDArray[Any]]:

@@ -129,7 +129,7 @@ def _mesh_of_particles(
 ) -> Mesh:
     """Spread particles and join them; where that makes too few vertices, spread more."""
     count, share_kept = counts.particles, counts.vertices / counts.particles
-    spreading = _spreading(options.particles, many=counts.many)
+    spreading = _spreading(options.particles, evened=counts.many and options.meshing.error is None)
     attempts = list[Mesh]()
     while len(attempts) < ATTEMPTS:
         with clock.stage("particles"):
@@ -152,8 +152,8 @@ def _mesh_of_particles(
     return max(attempts, key=lambda mesh: len(mesh.vertices_in_unit))
 
 
-def _spreading(options: ParticleOptions, *, many: bool) -> ParticleOptions:
-    """Return the options with a number of steps: fewer if there are `many` particles, more than vertices are wanted."""
+def _spreading(options: ParticleOptions, *, evened: bool) -> ParticleOptions:
+    """Return the options with a number of steps: fewer if the mesh is `evened` out afterwards."""
     if options.iterations is not None:
         return options
-    return replace(options, iterations=ITERATIONS_OF_MANY if many else ITERATIONS)
+    return replace(options, iterations=ITERATIONS_OF_MANY if evened else ITERATIONS)
