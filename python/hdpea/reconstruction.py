@@ -54,11 +54,13 @@ PHASES = (
     "meshing",
     "refinement",
     "simplification",
+    "remeshing",
     "repair",
     "measuring",
 )
 """The phases that ``progress`` hears of, in order; of denoising only if there is noise, or it is asked for, and of
-simplification, and another refinement after it, only if fewer vertices are wanted than particles are spread."""
+simplification, remeshing, and another refinement after them, only if fewer vertices are wanted than particles are
+spread."""
 
 
 @dataclass(frozen=True)
@@ -258,16 +260,19 @@ def reconstruct(
             found = surface_cloud(cloud, options.cleaning)
             cloud = found.cloud
             tell(progress, "cleaning", 1)
-        per_particle = len(cloud.points) / options.particles_of(found.points_shown)
-        prepared = prepare_surface(cloud, options.normals, options.denoising, per_particle, progress, clock)
-        budgeted, noise_choices = within_noise(options, prepared, found.points_shown)
-        particles, count_choices = particles_wanted(budgeted, len(cloud.points), found.points_shown)
-        per_particle = len(cloud.points) / particles
-        surface = prepared.surface
+        shown = found.points_shown
+        per_vertex = len(cloud.points) / options.resolution_of(shown)
+        prepared = prepare_surface(cloud, options.normals, options.denoising, per_vertex, progress, clock)
+        budgeted, noise_choices = within_noise(options, prepared, shown)
+        # Under an error bound the collapses find out themselves what the points show.
+        exact = prepared.exact and not noise_choices and options.meshing.error is None
+        _, count_choices = particles_wanted(budgeted, len(cloud.points), shown, exact=exact)
+        surface, resolution = prepared.surface, budgeted.resolution_of(shown)
         with clock.stage("embedding"):
-            embedded = embed_surface(surface, particles, options.embedding, progress, embedder)
-            bases = tangent_bases(embedded.coordinates, surface.normals, surface.neighbors, per_particle)
-        mesh = assemble_mesh(surface, embedded.coordinates, bases, budgeted, progress, clock, found.points_shown)
+            embedded = embed_surface(surface, resolution, options.embedding, progress, embedder)
+            per_vertex = len(cloud.points) / resolution
+            bases = tangent_bases(embedded.coordinates, surface.normals, surface.neighbors, per_vertex)
+        mesh = assemble_mesh(surface, embedded.coordinates, bases, budgeted, progress, clock, shown, exact=exact)
         # Before any piece is turned, as its points are not.
         carried = _carried(mesh, surface, cloud, clock)
         texture_of_points = _texture(mesh, surface, cloud, options.texture, clock)
@@ -278,8 +283,7 @@ def reconstruct(
             tell(progress, "measuring", 0)
             facts = mesh_facts(mesh)
             error_reached = achieved_error(mesh, surface, prepared.oriented.surface, options.meshing.error)
-            free = options.meshing.error is not None
-            wanted = len(mesh.vertices_in_unit) if free else budgeted.vertices_of(found.points_shown)
+            wanted = budgeted.vertices_of(shown) if options.meshing.error is None else len(mesh.vertices_in_unit)
             distances, agreement = compare(mesh, prepared, wanted)
             tell(progress, "measuring", 1)
     journal.source["format"] = cloud.format
@@ -288,14 +292,20 @@ def reconstruct(
     journal.counts |= cloud.counts() | found.counts() | {"normals_estimated": prepared.oriented.estimated}
     journal.choices += [*prepared.choices, *noise_choices, *count_choices, *embedded.choices, *mesh.choices]
     journal.meshing |= mesh.statistics
-    journal.notes += [*cloud.notes, *found.notes, *prepared.notes, *faced.notes]
-    journal.notes += coarseness(distances, surface.frame.diagonal, options.meshing)
-    journal.missed += [*prepared.missed, *missed_targets(mesh, facts, options.meshing)]
-    journal.missed += [*error_reached.missed(), *agreement.missed()]
-    vertices_in_world = surface.frame.to_world(mesh.vertices_in_unit)
+    coarse = coarseness(distances, surface.frame.diagonal, options.meshing)
+    journal.notes += [*cloud.notes, *found.notes, *prepared.notes, *faced.notes, *coarse]
+    targets = missed_targets(mesh, facts, options.meshing)
+    journal.missed += [*prepared.missed, *targets, *error_reached.missed(), *agreement.missed()]
     report = Report.of(journal, facts, distances, agreement, error_reached)
     return Reconstruction(
-        vertices_in_world, mesh.faces, report, found.dropped, carried, cloud.crs, texture_of_points, levels
+        surface.frame.to_world(mesh.vertices_in_unit),
+        mesh.faces,
+        report,
+        found.dropped,
+        carried,
+        cloud.crs,
+        texture_of_points,
+        levels,
     )
 
 

@@ -48,6 +48,7 @@ using ReleaseGil = nb::call_guard<nb::gil_scoped_release>;
 
 void register_creases(nb::module_& module);
 void register_crease_alignment(nb::module_& module);
+void register_anisotropic_remeshing(nb::module_& module);
 void register_errors(nb::module_& module);
 void register_farthest_point_sampling(nb::module_& module);
 void register_hole_filling(nb::module_& module);

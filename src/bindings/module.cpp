@@ -6,6 +6,7 @@ NB_MODULE(_core, module) {
   register_errors(module);
   register_creases(module);
   register_crease_alignment(module);
+  register_anisotropic_remeshing(module);
   register_farthest_point_sampling(module);
   register_hole_filling(module);
   register_intersection_repair(module);

@@ -111,12 +111,12 @@ def embed_points(
         cloud = cleaned_cloud(points, normals, sensors)
         found = surface_cloud(cloud, options.cleaning)
         cloud = found.cloud
-        particles = options.particles_of(found.points_shown)
+        vertices = options.resolution_of(found.points_shown)
         prepared = prepare_surface(
-            cloud, options.normals, points_per_vertex=len(cloud.points) / particles, progress=progress
+            cloud, options.normals, points_per_vertex=len(cloud.points) / vertices, progress=progress
         )
         surface = prepared.surface
-        embedded = embed_surface(surface, particles, options.embedding, progress)
+        embedded = embed_surface(surface, vertices, options.embedding, progress)
     choices = (*prepared.choices, *embedded.choices)
     notes = (*cloud.notes, *found.notes, *prepared.notes)
     return Embedding(cloud.points, surface.normals, embedded.coordinates, surface.frame, choices, notes)

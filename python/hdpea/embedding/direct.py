@@ -35,7 +35,7 @@ def embed_directly(surface: Surface, vertices: int, options: EmbeddingOptions, p
         if given is not None:
             return surface.frame.length_to_unit(given)
         chosen = per_spacing * spacing
-        why = f"{per_spacing:g} times the spacing of {vertices:,} particles on the surface"
+        why = f"{per_spacing:g} times the spacing of {vertices:,} vertices on the surface"
         choices.append(Choice(name, chosen * surface.frame.diagonal, "world units", why))
         return chosen
 

@@ -1,11 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""From an embedded surface to its mesh: particles, extraction, refinement, simplification."""
+"""From an embedded surface to its mesh: particles, extraction, refinement, simplification, remeshing."""
 
 from __future__ import annotations
+
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
+from hdpea.mesh.anisotropic_remeshing import remesh_anisotropically
 from hdpea.mesh.budget import Budget
 from hdpea.mesh.creases import align_to_creases, find_creases, with_crease_edges_counted
 from hdpea.mesh.error_bound import ErrorBound, mended_within, simplify_within
@@ -14,13 +17,27 @@ from hdpea.mesh.particles import spread_particles
 from hdpea.mesh.refinement import refine_mesh
 from hdpea.mesh.repair import repair_mesh
 from hdpea.mesh.simplification import simplify_mesh
-from hdpea.options import Options
+from hdpea.options import Options, ParticleOptions
+from hdpea.options.particles import ITERATIONS, ITERATIONS_OF_MANY
 from hdpea.runtime.clock import StageClock
 from hdpea.runtime.progress import ProgressCallback, of_phase, tell
 from hdpea.surface.surface import Surface
 
 ATTEMPTS = 3
 """How often at most particles are spread, each time more of them, where their mesh has too few vertices."""
+
+
+@dataclass(frozen=True)
+class _Counts:
+    """Particles to spread, vertices to make of them, and how many the points can show."""
+
+    particles: int
+    vertices: int
+    resolution: int
+
+    @property
+    def many(self) -> bool:
+        return self.particles > self.vertices
 
 
 def assemble_mesh(
@@ -31,6 +48,8 @@ def assemble_mesh(
     progress: ProgressCallback | None = None,
     clock: StageClock | None = None,
     points_shown: int | None = None,
+    *,
+    exact: bool = True,
 ) -> Mesh:
     """Spread particles on an embedded surface, join them, fit the mesh to the points, and simplify it to its budget.
 
@@ -43,11 +62,13 @@ def assemble_mesh(
     options
         Those of particles, meshing and refinement count here.
     progress
-        Hears of the phases particles, meshing, refinement, simplification and repair.
+        Hears of the phases particles, meshing, refinement, simplification, remeshing and repair.
     clock
         Measures them as stages.
     points_shown
         How many evenly spread points would show as much: what the numbers go by; default: those of the surface.
+    exact
+        Whether the points are free of noise, and their normals their own: then more particles show more.
 
     Raises
     ------
@@ -58,7 +79,12 @@ def assemble_mesh(
     """
     options, clock = options or Options(), clock or StageClock()
     points_shown = points_shown or len(surface.points_in_unit)
-    mesh = _mesh_of_particles(surface, coordinates, bases, options, points_shown, progress, clock)
+    counts = _Counts(
+        min(options.particles_of(points_shown, exact=exact), len(surface.points_in_unit)),
+        options.vertices_of(points_shown),
+        options.resolution_of(points_shown),
+    )
+    mesh = _mesh_of_particles(surface, coordinates, bases, options, counts, progress, clock)
     with clock.stage("refinement"):
         creases = find_creases(surface)
         mesh = align_to_creases(mesh, creases)
@@ -68,9 +94,15 @@ def assemble_mesh(
         bound = ErrorBound(surface, surface.frame.length_to_unit(options.meshing.error))
         with clock.stage("simplification"):
             mesh = simplify_within(mesh, bound, of_phase(progress, "simplification"))
-    if Budget.of(options.meshing).excess(mesh) > 0:
+    wanted = options.meshing
+    if wanted.any_size and wanted.error is None and counts.many:
+        wanted = replace(wanted, vertices=counts.vertices)
+    if Budget.of(wanted).excess(mesh) > 0:
         with clock.stage("simplification"):
-            mesh = simplify_mesh(mesh, surface, options.meshing, of_phase(progress, "simplification"))
+            mesh = simplify_mesh(mesh, surface, wanted, of_phase(progress, "simplification"))
+        if bound is None:
+            with clock.stage("remeshing"):
+                mesh = remesh_anisotropically(mesh, surface, coordinates, bases, of_phase(progress, "remeshing"))
         with clock.stage("refinement"):
             mesh = align_to_creases(mesh, creases)
             mesh = refine_mesh(mesh, surface, options.refinement, of_phase(progress, "refinement"))
@@ -86,13 +118,13 @@ def _mesh_of_particles(
     coordinates: NDArray[np.float64],
     bases: NDArray[np.float64],
     options: Options,
-    points_shown: int,
+    counts: _Counts,
     progress: ProgressCallback | None,
     clock: StageClock,
 ) -> Mesh:
     """Spread particles and join them; where that makes too few vertices, spread more."""
-    count = options.particles_of(points_shown)
-    share_kept = options.vertices_of(points_shown) / count
+    count, share_kept = counts.particles, counts.vertices / counts.particles
+    spreading = _spreading(options.particles, evened=counts.many and options.meshing.error is None)
     attempts = list[Mesh]()
     while len(attempts) < ATTEMPTS:
         with clock.stage("particles"):
@@ -101,15 +133,22 @@ def _mesh_of_particles(
                 bases,
                 surface.neighbors,
                 count,
-                options=options.particles,
+                options=spreading,
                 progress=of_phase(progress, "particles"),
             )
         with clock.stage("meshing"):
             tell(progress, "meshing", 0)
-            attempts.append(extract_mesh(particles, bases, surface, options.meshing, share_kept))
+            attempts.append(extract_mesh(particles, bases, surface, options.meshing, share_kept, counts.resolution))
             tell(progress, "meshing", 1)
         excess = Budget.of(options.meshing).excess(attempts[-1])
         if excess >= 0:
             return attempts[-1]
         count = min(round(count / (1 + excess)), len(surface.points_in_unit))
     return max(attempts, key=lambda mesh: len(mesh.vertices_in_unit))
+
+
+def _spreading(options: ParticleOptions, *, evened: bool) -> ParticleOptions:
+    """Return the options with a number of steps: fewer if the mesh is `evened` out afterwards."""
+    if options.iterations is not None:
+        return options
+    return replace(options, iterations=ITERATIONS_OF_MANY if evened else ITERATIONS)

@@ -38,31 +38,38 @@ class Budget:
         return more / self.asked if abs(more) > max(TOLERANCE * self.asked, 1) else 0.0
 
 
-def particles_wanted(options: Options, points: int, points_shown: int) -> tuple[int, tuple[Choice, ...]]:
+def particles_wanted(
+    options: Options, points: int, points_shown: int, *, exact: bool = True
+) -> tuple[int, tuple[Choice, ...]]:
     """Return how many particles to spread on so many points, and what was chosen for that.
 
     Parameters
     ----------
     points_shown
         As many evenly spread points would show as much: what the numbers go by.
+    exact
+        Whether the points are free of noise, and their normals their own.
 
     Raises
     ------
     UsageError
         If there are fewer points than that.
     """
-    vertices, particles = options.vertices_of(points_shown), options.particles_of(points_shown)
-    if particles > points:
-        what = "vertices" if particles == vertices else "particles"
+    vertices, given = options.vertices_of(points_shown), options.particles.particles
+    asked = vertices if given is None else given
+    if asked > points:
+        what = "vertices" if asked == vertices else "particles"
         raise UsageError(
-            f"{particles} {what} were asked for, but there are {points} distinct points on the surface.",
+            f"{asked} {what} were asked for, but there are {points} distinct points on the surface.",
             f"Ask for at most half as many {what} as there are points.",
         )
-    if options.particles.particles is not None:
+    particles = min(options.particles_of(points_shown, exact=exact), points)
+    if given is not None:
         return particles, ()
+    choices = list[Choice]()
     if options.meshing.any_size and options.meshing.error is None:
-        return particles, (Choice("vertices", vertices, "", f"one for every {POINTS_PER_VERTEX} points"),)
+        choices.append(Choice("vertices", vertices, "", f"one for every {POINTS_PER_VERTEX} points"))
     if particles > vertices or options.meshing.error is not None:
         why = f"what {points_shown:,} points can show; the mesh is simplified from these"
-        return particles, (Choice("particles", particles, "", why),)
-    return particles, ()
+        choices.append(Choice("particles", particles, "", why))
+    return particles, tuple(choices)

@@ -11,7 +11,8 @@ from hdpea.mesh.particles import Particles
 from hdpea.surface.surface import Surface, area_shown
 
 MAX_GAP = 1.0
-"""Farthest from the points that a triangle's middle, or that of an edge, may be, in spacings of the vertices in R^3."""
+"""Farthest from the points that a triangle's middle, or that of an edge, may be, in spacings in R^3 of the vertices
+that the points can show."""
 
 POINTS_BELOW = 12
 """Nearest points to each of these places of which one must face as the triangle's corners do."""
@@ -23,7 +24,9 @@ MIDDLES = np.array([[2, 1, 1], [1, 2, 1], [1, 1, 2], [2, 2, 0], [0, 2, 2], [2, 0
 """Barycentric coordinates of the places of a triangle that are looked at."""
 
 
-def covered(candidates: _core.Candidates, particles: Particles, surface: Surface) -> _core.Candidates:
+def covered(
+    candidates: _core.Candidates, particles: Particles, surface: Surface, resolution: int | None = None
+) -> _core.Candidates:
     """Return the candidates that lie on points of the surface, which face as their corners do.
 
     The disks that cells are cut from have their size in R^8; where the surface is stretched much, they reach across
@@ -33,7 +36,7 @@ def covered(candidates: _core.Candidates, particles: Particles, surface: Surface
     positions = np.ascontiguousarray(particles.coordinates[:, :3])
     corners = candidates.triangles
     towards = surface.normals[particles.nearest][corners].sum(axis=1)  # (t, 3)
-    farthest = _reach(particles, surface)[corners].max(axis=1)  # (t,)
+    farthest = _reach(particles, surface, resolution or len(particles.nearest))[corners].max(axis=1)  # (t,)
     chosen = np.ones(len(corners), dtype=bool)
     for weights in MIDDLES:
         places = np.einsum("c,tcx->tx", weights, positions[corners])
@@ -59,10 +62,10 @@ def _lie_on(
     return np.asarray((near & facing).any(axis=1))
 
 
-def _reach(particles: Particles, surface: Surface) -> NDArray[np.float64]:
+def _reach(particles: Particles, surface: Surface, resolution: int) -> NDArray[np.float64]:
     """Return how far from points the surface around each particle (m,) may be."""
     points, nearest = surface.points_in_unit, particles.nearest
-    spacing = float(np.sqrt(area_shown(points, surface.neighbors) / len(nearest)))
+    spacing = float(np.sqrt(area_shown(points, surface.neighbors) / resolution))
     apart = surface.neighbors[nearest, SPARSE_NEIGHBOR]
     sparse = np.where(apart < 0, 0, np.linalg.norm(points[apart] - points[nearest], axis=1))
     return np.maximum(MAX_GAP * spacing, sparse)

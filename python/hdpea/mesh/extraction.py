@@ -24,7 +24,7 @@ DISK_RADIUS = 1.8
 """Radius of the disks in mean distances of the particles in R^d."""
 
 HOLES_FILLED = 4.0
-"""Size of the largest hole that is filled unasked, in spacings of the particles in R^3."""
+"""Size of the largest hole that is filled unasked, in spacings in R^3 of the vertices that the points can show."""
 
 
 @dataclass(frozen=True)
@@ -64,6 +64,7 @@ def extract_mesh(
     surface: Surface,
     options: MeshingOptions | None = None,
     share_kept: float = 1.0,
+    resolution: int | None = None,
 ) -> Mesh:
     """Join particles to a mesh.
 
@@ -75,6 +76,9 @@ def extract_mesh(
         Where the normals come from.
     share_kept
         Share of the vertices that a simplification will keep: pieces that would have too few faces then are dropped.
+    resolution
+        How many vertices the points can show, by whose spacing it goes which holes are filled, and how far from the
+        points a triangle may lie; default: the particles.
 
     Raises
     ------
@@ -82,10 +86,11 @@ def extract_mesh(
         If no triangle can be made.
     """
     options = options or MeshingOptions()
+    resolution = resolution or len(particles.coordinates)
     with core_errors_translated():
         normals = np.ascontiguousarray(surface.normals[particles.nearest])
         candidates, radii = restricted_cells(particles.coordinates, bases[particles.nearest], DISK_RADIUS)
-        on_points = covered(candidates, particles, surface)
+        on_points = covered(candidates, particles, surface, resolution)
         why = f"{DISK_RADIUS:g} mean distances of the particles in the embedding; more where they are sparse"
         smallest = float(radii.min()) * surface.frame.diagonal
         disks = Choice("disk_radius", smallest, "world units under the metric", why)
@@ -97,13 +102,17 @@ def extract_mesh(
                 "No triangle holds on these points.", "They may be too few or too noisy; try fewer `particles`."
             )
         coordinates = particles.coordinates[extracted.sources]
-        mesh = _fill_holes(coordinates, extracted, surface.frame, options)
+        mesh = _fill_holes(coordinates, extracted, surface.frame, options, resolution)
         refused = {"refused_uncovered": len(candidates.triangles) - len(on_points.triangles)}
         return replace(mesh, statistics=refused | mesh.statistics, choices=(disks, *mesh.choices))
 
 
 def _fill_holes(
-    coordinates: NDArray[np.float64], extracted: _core.ExtractedMesh, frame: UnitFrame, options: MeshingOptions
+    coordinates: NDArray[np.float64],
+    extracted: _core.ExtractedMesh,
+    frame: UnitFrame,
+    options: MeshingOptions,
+    resolution: int,
 ) -> Mesh:
     vertices = np.ascontiguousarray(coordinates[:, :3])
     choices: tuple[Choice, ...] = ()
@@ -112,8 +121,8 @@ def _fill_holes(
     elif options.fill_holes is not None:
         size = frame.length_to_unit(options.fill_holes)
     else:
-        size = HOLES_FILLED * float(np.sqrt(mesh_area(vertices, extracted.faces) / len(vertices)))
-        why = f"{HOLES_FILLED:g} spacings of the particles"
+        size = HOLES_FILLED * float(np.sqrt(mesh_area(vertices, extracted.faces) / resolution))
+        why = f"{HOLES_FILLED:g} spacings of the vertices that the points can show"
         choices = (Choice("fill_holes", size * frame.diagonal, "world units", why),)
     filled = _core.fill_holes(vertices, extracted.faces, size)
     statistics: dict[str, int | float] = {

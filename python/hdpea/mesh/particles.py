@@ -13,6 +13,7 @@ from hdpea import _core
 from hdpea.errors import core_errors_translated
 from hdpea.mesh.cells import restricted_cells
 from hdpea.options import ParticleOptions
+from hdpea.options.particles import ITERATIONS
 from hdpea.runtime.progress import PhaseCallback
 
 if TYPE_CHECKING:
@@ -127,6 +128,7 @@ def spread_particles(
     import torch
 
     options = options or ParticleOptions()
+    iterations = ITERATIONS if options.iterations is None else options.iterations
     with core_errors_translated():
         seeds = _core.farthest_point_sampling(coordinates, count, options.seed % len(coordinates))
         cells, _ = restricted_cells(coordinates[seeds], bases[seeds], AREA_DISK_RADIUS)
@@ -135,8 +137,8 @@ def spread_particles(
         nearest = torch.from_numpy(seeds)  # (m,)
         x = cloud.points[nearest]  # (m, d)
         velocity = torch.zeros_like(x)  # (m, d)
-        for step in range(options.iterations):
-            if progress is not None and not progress(step / options.iterations):
+        for step in range(iterations):
+            if progress is not None and not progress(step / iterations):
                 raise _core.Cancelled("cancelled")
             if step % REFRESH == 0:
                 others = torch.from_numpy(_core.nearest_neighbors(x.numpy(), min(INTERACTIONS, count - 1)))  # (m, k)

@@ -5,16 +5,30 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+import numpy as np
+
 from hdpea import _core
 from hdpea.errors import core_errors_translated
+from hdpea.geometry.triangles import mesh_area
 from hdpea.mesh.extraction import Mesh
+
+MOST_LOST = 1.0
+"""Farthest, in spacings of the vertices, that a repair may leave what was there: of adis16480, whose thin pins pass
+through each other, one took a seventh of the vertices, and 100 times the squared error was left."""
 
 
 def repair_mesh(mesh: Mesh) -> Mesh:
-    """Return the mesh without its self-intersections, but for those where two walls pass through each other."""
+    """Return the mesh without its self-intersections, but for those where two walls pass through each other.
+
+    It stays as it is if the repair would take parts of it away.
+    """
     with core_errors_translated():
         repaired = _core.repair_self_intersections(mesh.vertices_in_unit, mesh.faces)
+        left = _core.closest_surface_points(repaired.vertices, repaired.faces, mesh.vertices_in_unit).distance
         same = _core.nearest_neighbors(mesh.vertices_in_unit, repaired.vertices, 1)[:, 0]
+    spacing = np.sqrt(mesh_area(mesh.vertices_in_unit, mesh.faces) / len(mesh.vertices_in_unit))
+    if left.max() > MOST_LOST * spacing:
+        return mesh
     return replace(
         mesh,
         vertices_in_unit=repaired.vertices,

@@ -34,10 +34,13 @@ class EmbeddingOptions(Checked):
     )
     curvature_radius: Length | None = option(
         None,
-        "direct: radius in which curvature is measured, as 0.02 or 1%; default: from the number of particles",
+        "direct: radius in which curvature is measured, as 0.02 or 1%; default: from the number of vertices that the "
+        "points can show",
     )
     bending_length: Length | None = option(
-        None, "direct: length below which it does not bend, as 0.02 or 1%; default: from the number of particles"
+        None,
+        "direct: length below which it does not bend, as 0.02 or 1%; default: from the number of vertices that the "
+        "points can show",
     )
     metric_scale: float = option(0.5, "direct: c of the metric s^2 = c |k|: larger stretches more", minimum=0)
     max_stretch: float = option(8.0, "direct: largest stretch of the metric in any direction", minimum=1)

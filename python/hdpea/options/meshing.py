@@ -34,7 +34,9 @@ class MeshingOptions(Checked):
         maximum=16,
     )
     fill_holes: Length | None = option(
-        None, "fill holes up to this size across, as 0.02 or 1%; default: 4 times the spacing of the particles; 0: none"
+        None,
+        "fill holes up to this size across, as 0.02 or 1%; default: 4 times the spacing of the vertices "
+        "that the points can show; 0: none",
     )
     watertight: bool = option(False, "close every hole, whatever its size")
     min_component: int = option(

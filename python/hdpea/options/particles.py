@@ -6,13 +6,19 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from hdpea.options.checked import Checked, option
-from hdpea.options.meshing import POINTS_PER_VERTEX
+
+POINTS_PER_PARTICLE = 3
+"""Points per particle where the mesh is simplified: with fewer particles, what is thinner than they are apart tears."""
 
 ENOUGH_PARTICLES, ENOUGH_PER_VERTEX = 20_000, 2
 """Most particles, and most for each vertex wanted, whichever is larger, however many points there are."""
 
 WORTH_SIMPLIFYING = 1.2
 """Fewest particles per vertex at which simplifying a finer mesh is more accurate; below, it is only less even."""
+
+ITERATIONS, ITERATIONS_OF_MANY = 100, 20
+"""Steps of the particles: where each becomes a vertex, and where their mesh is simplified and evened out afterwards,
+so that they need only be even enough for their cells to meet."""
 
 
 @dataclass(frozen=True)
@@ -22,8 +28,14 @@ class ParticleOptions(Checked):
     particles: int | None = option(
         None,
         "particles to spread; their mesh is simplified where fewer vertices are wanted; default: one for every "
-        f"{POINTS_PER_VERTEX} points, at most {ENOUGH_PARTICLES:,} or {ENOUGH_PER_VERTEX} for each vertex",
+        f"{POINTS_PER_PARTICLE} points, at most {ENOUGH_PARTICLES:,} or {ENOUGH_PER_VERTEX} for each vertex",
         minimum=4,
     )
-    iterations: int = option(100, "steps of the particles' energy descent", minimum=0, maximum=100_000)
+    iterations: int | None = option(
+        None,
+        f"steps of the particles' energy descent; default: {ITERATIONS}, or {ITERATIONS_OF_MANY} where there are more "
+        "particles than vertices are wanted",
+        minimum=0,
+        maximum=100_000,
+    )
     seed: int = option(0, "seed of everything random; the same seed gives the same bytes", minimum=0)

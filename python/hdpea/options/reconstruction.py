@@ -12,7 +12,13 @@ from hdpea.options.denoising import DenoisingOptions
 from hdpea.options.embedding import EmbeddingOptions
 from hdpea.options.meshing import POINTS_PER_VERTEX, MeshingOptions
 from hdpea.options.normals import NormalOptions
-from hdpea.options.particles import ENOUGH_PARTICLES, ENOUGH_PER_VERTEX, WORTH_SIMPLIFYING, ParticleOptions
+from hdpea.options.particles import (
+    ENOUGH_PARTICLES,
+    ENOUGH_PER_VERTEX,
+    POINTS_PER_PARTICLE,
+    WORTH_SIMPLIFYING,
+    ParticleOptions,
+)
 from hdpea.options.refinement import RefinementOptions
 
 TEXTURE_SIZES = {"minimum": 64, "maximum": 16384}
@@ -52,14 +58,27 @@ class Options(Checked):
             return given
         return self.meshing.vertices_of(points)
 
-    def particles_of(self, points: int) -> int:
+    def resolution_of(self, points: int) -> int:
+        """Return how many vertices would show what so many points do, at least those wanted.
+
+        What is measured in spacings of vertices, such as the bending of the embedding and the holes to fill, goes by
+        these, however few are kept in the end.
+        """
+        return self._enough(points, POINTS_PER_VERTEX)
+
+    def particles_of(self, points: int, *, exact: bool = True) -> int:
         """Return how many particles to spread on so many points: at least one for each vertex.
 
-        A mesh of few vertices is not made of few particles, which cannot show parts thinner than they are apart: it
-        is simplified from a mesh of more.
+        A mesh is not made of as few particles as it is to have vertices, which cannot show parts thinner than they are
+        apart: it is simplified from a mesh of more. Points that are not `exact`, since they are noisy or their normals
+        had to be estimated from many of them, show no more than as many vertices do.
         """
+        return self._enough(points, POINTS_PER_PARTICLE if exact else POINTS_PER_VERTEX)
+
+    def _enough(self, points: int, points_each: int) -> int:
+        """Return one for so many points each, within limits, if that is clearly more than the vertices wanted."""
         if self.particles.particles is not None:
             return self.particles.particles
         vertices = self.meshing.vertices_of(points)
-        shown = min(points // POINTS_PER_VERTEX, max(ENOUGH_PARTICLES, ENOUGH_PER_VERTEX * vertices))
+        shown = min(points // points_each, max(ENOUGH_PARTICLES, ENOUGH_PER_VERTEX * vertices))
         return shown if shown >= WORTH_SIMPLIFYING * vertices else vertices

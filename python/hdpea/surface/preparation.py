@@ -41,6 +41,11 @@ class Preparation:
     notes: tuple[str, ...]
     missed: tuple[str, ...] = ()
 
+    @property
+    def exact(self) -> bool:
+        """Whether the points are as they were given, and so are most of their normals."""
+        return self.surface is self.oriented.surface and 2 * self.oriented.estimated < len(self.surface.normals)
+
 
 def prepare_surface(
     cloud: PointCloud,

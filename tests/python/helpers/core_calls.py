@@ -92,6 +92,17 @@ CALLS: dict[str, tuple[Callable[..., Any], Arguments]] = {
         lambda **arrays: _core.refine_vertices(options=_core.RefinementOptions(), **arrays),
         _mesh() | {"points": POINTS, "normals": NORMALS},
     ),
+    "remesh_anisotropically": (
+        _core.remesh_anisotropically,
+        _mesh()
+        | {
+            "coordinates": VERTICES,
+            "kept_edges": FACES[:, :2].copy(),
+            "cloud": POINTS,
+            "bases": BASES,
+            "normals": NORMALS,
+        },
+    ),
     "remesh_isotropically": (_remesh, _mesh()),
     "repair_self_intersections": (_core.repair_self_intersections, _mesh()),
     "restricted_voronoi_candidates": (

@@ -32,4 +32,5 @@ def test_as_many_as_are_left_are_not() -> None:
 
 
 def test_unasked_the_number_follows_what_the_points_show() -> None:
-    assert particles_wanted(Options(), KEPT, SHOWN)[0] == SHOWN // 8
+    assert particles_wanted(Options(), KEPT, SHOWN)[0] == SHOWN // 3
+    assert particles_wanted(Options(), SHOWN // 5, SHOWN)[0] == SHOWN // 5

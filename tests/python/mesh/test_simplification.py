@@ -79,10 +79,10 @@ def test_pieces_are_dropped_by_their_share_of_the_small_mesh() -> None:
 @pytest.mark.parametrize(
     ("points", "vertices", "particles"),
     [
-        (40_000, None, 5_000),
-        (40_000, 1_500, 5_000),
-        (40_000, 4_500, 4_500),
-        (40_000, 6_000, 6_000),
+        (40_000, None, 13_333),
+        (40_000, 1_500, 13_333),
+        (40_000, 11_000, 13_333),
+        (40_000, 12_000, 12_000),
         (10**6, 100, 20_000),
         (10**6, 35_000, 70_000),
     ],
@@ -90,6 +90,12 @@ def test_pieces_are_dropped_by_their_share_of_the_small_mesh() -> None:
 def test_particles_are_as_many_as_the_points_can_show(points: int, vertices: int | None, particles: int) -> None:
     wanted = Options(meshing=MeshingOptions(vertices=vertices))
     assert wanted.particles_of(points) == particles
+
+
+@pytest.mark.parametrize(("vertices", "particles"), [(1_500, 5_000), (4_500, 4_500)])
+def test_what_is_not_exact_shows_no_more_than_as_many_vertices_do(vertices: int, particles: int) -> None:
+    wanted = Options(meshing=MeshingOptions(vertices=vertices))
+    assert wanted.particles_of(40_000, exact=False) == wanted.resolution_of(40_000) == particles
 
 
 def test_particles_that_are_given_are_taken() -> None:
@@ -113,7 +119,7 @@ def test_more_particles_than_points_are_refused() -> None:
 
 def test_the_report_says_so() -> None:
     told = {choice.name: choice for choice in reconstruct(*cloud_of("sphere"), options(100)).report.choices}
-    assert told["particles"].value == 375
+    assert told["particles"].value == 1000
     assert "simplified" in told["particles"].why
 
 

@@ -1,0 +1,52 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Triangles that are equilateral in the embedding, after edge collapses, which choose among the edges there are."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hdpea import _core
+from hdpea.errors import core_errors_translated
+from hdpea.mesh.extraction import Mesh
+from hdpea.runtime.progress import PhaseCallback
+from hdpea.surface.surface import Surface
+
+
+def remesh_anisotropically(
+    mesh: Mesh,
+    surface: Surface,
+    coordinates: NDArray[np.float64],
+    bases: NDArray[np.float64],
+    progress: PhaseCallback | None = None,
+    kept_edges: NDArray[np.int64] | None = None,
+) -> Mesh:
+    """Return the mesh with its edges flipped, and its vertices moved along the embedded surface.
+
+    Nothing moves or flips where that would take the mesh farther from the points than it is, or turn a face over; the
+    topology and the number of vertices stay (``anisotropic_remeshing.hpp``).
+
+    Parameters
+    ----------
+    coordinates
+        (n, d) float64: the embedding of the points of `surface`.
+    bases
+        (n, 2, d) float64: its tangent planes, as ``hdpea.embedding.tangents`` makes them.
+    kept_edges
+        (k, 2) int64: vertices at the ends of edges that stay as they are, such as creases; default: none.
+    """
+    kept = np.empty((0, 2), dtype=np.int64) if kept_edges is None else kept_edges
+    with core_errors_translated():
+        made = _core.remesh_anisotropically(
+            mesh.vertices_in_unit,
+            mesh.coordinates,
+            mesh.faces,
+            kept,
+            coordinates,
+            bases.reshape(len(bases), -1),
+            surface.normals,
+            progress,
+        )
+    return replace(mesh, vertices_in_unit=made.vertices, faces=made.faces, coordinates=made.coordinates)

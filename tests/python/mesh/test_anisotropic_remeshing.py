@@ -1,0 +1,52 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What is simplified is made even again, without leaving the points."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from helpers import clouds
+from helpers.reconstructions import assert_same_bytes, cloud_of, mesh_of, options
+from numpy.typing import NDArray
+
+from hdpea import Reconstruction, reconstruct
+from hdpea.errors import Interrupted
+from hdpea.mesh import assembly
+
+
+def evenness(mesh: Reconstruction) -> float:
+    """Return the share of vertices at which six faces meet."""
+    counts: NDArray[np.int64] = np.bincount(mesh.faces.ravel())
+    return float((counts == 6).mean())
+
+
+def test_collapses_alone_leave_fewer_regular_vertices(monkeypatch: pytest.MonkeyPatch) -> None:
+    remeshed = evenness(mesh_of("sphere"))
+    monkeypatch.setattr(assembly, "remesh_anisotropically", lambda mesh, *_: mesh)
+    assert remeshed > evenness(reconstruct(*cloud_of("sphere"), options())) + 0.1
+
+
+@pytest.mark.parametrize("shape", ["sphere", "torus", "cube"])
+def test_it_keeps_the_topology_and_cuts_nothing(shape: str) -> None:
+    made = mesh_of(shape).report.mesh
+    assert made is not None
+    assert made.closed
+    assert made.manifold
+    assert made.genus == (1 if shape == "torus" else 0)
+    assert made.self_intersections == 0
+
+
+def test_it_is_the_same_for_any_number_of_threads() -> None:
+    points, normals = clouds.torus(2000)
+    assert_same_bytes(*(reconstruct(points, normals, options(200, threads=threads)) for threads in (1, 2)))
+
+
+def test_points_whose_normals_are_estimated_get_no_more_particles_than_vertices() -> None:
+    points, normals = clouds.torus(2000)
+    for given, simplified in ((normals, True), (None, False)):
+        assert ("edges_collapsed" in reconstruct(points, given, vertices=240).report.meshing) == simplified
+
+
+def test_it_can_be_interrupted() -> None:
+    with pytest.raises(Interrupted):
+        reconstruct(*cloud_of("sphere", 500), options(60), lambda phase, _: phase != "remeshing")
