@@ -6,7 +6,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -24,19 +24,20 @@ from hdpea.mesh.levels import coarser_levels
 from hdpea.mesh.noise import within_noise
 from hdpea.mesh.sides import FacedMesh, facing_out
 from hdpea.mesh.texture import require_colors, texture_of
-from hdpea.options import Classes, Length, Options
+from hdpea.options import Classes, Length, MeshingOptions, Options
 from hdpea.options.settings import changed
 from hdpea.reading.attributes import split_colors
 from hdpea.reading.cloud import PointCloud, cleaned_cloud
 from hdpea.reading.objects import PointsLike
-from hdpea.report.achieved_error import achieved_error
+from hdpea.report.achieved_error import AchievedError, achieved_error
+from hdpea.report.agreement import Agreement
 from hdpea.report.measurement import coarseness, compare, level_facts, mesh_facts, missed_targets
-from hdpea.report.report import Journal, Report
+from hdpea.report.report import Distances, Journal, MeshFacts, Report
 from hdpea.runtime.clock import StageClock
 from hdpea.runtime.progress import ProgressCallback, tell
 from hdpea.runtime.pytorch import check_pytorch
 from hdpea.runtime.threads import limited_threads
-from hdpea.surface.preparation import prepare_surface
+from hdpea.surface.preparation import Preparation, prepare_surface
 from hdpea.surface.surface import Surface
 from hdpea.writing.meshes import level_path, write_mesh
 from hdpea.writing.objects import as_open3d, as_pyvista, as_trimesh
@@ -279,24 +280,19 @@ def reconstruct(
         levels = _levels(mesh, surface, prepared.oriented.computed_sides, options, cloud, journal)
         faced = facing_out(mesh) if prepared.oriented.computed_sides else FacedMesh(mesh)
         mesh = faced.mesh
-        with clock.stage("measuring"):
-            tell(progress, "measuring", 0)
-            facts = mesh_facts(mesh)
-            error_reached = achieved_error(mesh, surface, prepared.oriented.surface, options.meshing.error)
-            wanted = budgeted.vertices_of(shown) if options.meshing.error is None else len(mesh.vertices_in_unit)
-            distances, agreement = compare(mesh, prepared, wanted)
-            tell(progress, "measuring", 1)
+        wanted = budgeted.vertices_of(shown) if options.meshing.error is None else len(mesh.vertices_in_unit)
+        measured = _measured(mesh, prepared, options.meshing, wanted, progress, clock)
     journal.source["format"] = cloud.format
     if cloud.crs is not None:
         journal.source["crs"] = cloud.crs
     journal.counts |= cloud.counts() | found.counts() | {"normals_estimated": prepared.oriented.estimated}
     journal.choices += [*prepared.choices, *noise_choices, *count_choices, *embedded.choices, *mesh.choices]
     journal.meshing |= mesh.statistics
-    coarse = coarseness(distances, surface.frame.diagonal, options.meshing)
+    coarse = coarseness(measured.distances, surface.frame.diagonal, options.meshing)
     journal.notes += [*cloud.notes, *found.notes, *prepared.notes, *faced.notes, *coarse]
-    targets = missed_targets(mesh, facts, options.meshing)
-    journal.missed += [*prepared.missed, *targets, *error_reached.missed(), *agreement.missed()]
-    report = Report.of(journal, facts, distances, agreement, error_reached)
+    targets = missed_targets(mesh, measured.facts, options.meshing)
+    journal.missed += [*prepared.missed, *targets, *measured.error.missed(), *measured.agreement.missed()]
+    report = Report.of(journal, measured.facts, measured.distances, measured.agreement, measured.error)
     return Reconstruction(
         surface.frame.to_world(mesh.vertices_in_unit),
         mesh.faces,
@@ -307,6 +303,33 @@ def reconstruct(
         texture_of_points,
         levels,
     )
+
+
+class _Measured(NamedTuple):
+    """What is found about a mesh in the end."""
+
+    facts: MeshFacts
+    distances: Distances
+    agreement: Agreement
+    error: AchievedError
+
+
+def _measured(
+    mesh: Mesh,
+    prepared: Preparation,
+    meshing: MeshingOptions,
+    wanted: int,
+    progress: ProgressCallback | None,
+    clock: StageClock,
+) -> _Measured:
+    """Measure a mesh against the points that it was made of, of which so many vertices were `wanted`."""
+    with clock.stage("measuring"):
+        tell(progress, "measuring", 0)
+        facts = mesh_facts(mesh)
+        error = achieved_error(mesh, prepared.surface, prepared.oriented.surface, meshing.error)
+        distances, agreement = compare(mesh, prepared, wanted)
+        tell(progress, "measuring", 1)
+    return _Measured(facts, distances, agreement, error)
 
 
 def _levels(
