@@ -21,6 +21,9 @@ ALIKE = 0.5
 STEEP, LEAST_HEIGHT = 0.7, 0.5
 """Slope, as a sine, and height in spacings from which a point lies above another rather than beside it."""
 
+MOST_HEIGHT = 2.5
+"""Height in spacings up to which two layers are one surface seen twice: sheets that lie farther apart are two."""
+
 CHUNK = 50_000
 """Points that are looked at at once, which bounds the memory."""
 
@@ -39,6 +42,7 @@ def are_layered(
     normals: NDArray[np.float64],
     rows: NDArray[np.int64],
     around: NDArray[np.int64],
+    most_height: float,
     signed: bool = True,
 ) -> NDArray[np.bool_]:
     """Return which `rows` (m,) of points (n, 3) have another above or below that faces the same way, (m,) bool.
@@ -52,6 +56,8 @@ def are_layered(
         (n, 3) unit; of consistent signs where `signed`, else the sides of thin walls are layers, too.
     around
         (m, k) the nearest points of each, whatever sheet they lie on.
+    most_height
+        Heights above it are no layers', as ``MOST_HEIGHT`` times the spacing of most points.
     """
     offsets = points[around] - points[rows, None]
     own = normals[rows, None]
@@ -60,7 +66,7 @@ def are_layered(
     lengths = np.linalg.norm(offsets, axis=2)
     # A disk that reaches to the k-th neighbour holds k points.
     spacing = lengths[:, -1] * np.sqrt(np.pi / around.shape[1])
-    above = (heights > STEEP * lengths) & (heights > LEAST_HEIGHT * spacing[:, None])
+    above = (heights > STEEP * lengths) & (heights > LEAST_HEIGHT * spacing[:, None]) & (heights < most_height)
     alike = (cosines if signed else abs(cosines)) > ALIKE
     return np.asarray(above.any(axis=1) & alike.all(axis=1))
 
@@ -78,15 +84,23 @@ def layered_samples(
         return np.empty(0, dtype=np.int64)
     rows = rows_along(len(points), SAMPLES)
     around = _core.nearest_neighbors(points, np.ascontiguousarray(points[rows]), AROUND + 1)[:, 1:]
-    return rows[are_layered(points, normals, rows, around, signed)]
+    return rows[are_layered(points, normals, rows, around, _most_height(points, rows, around), signed)]
 
 
 def layered_region(points: NDArray[np.float64], normals: NDArray[np.float64]) -> NDArray[np.int64]:
     """Return the rows (m,) of the points (n, 3) in layers and of those around them."""
     around = _core.nearest_neighbors(points, AROUND)
+    sampled = rows_along(len(points), SAMPLES)
+    most_height = _most_height(points, sampled, around[sampled])
     inside = np.zeros(len(points), dtype=bool)
     for rows in np.array_split(np.arange(len(points)), len(points) // CHUNK + 1):
-        inside[rows] = are_layered(points, normals, rows, around[rows])
+        inside[rows] = are_layered(points, normals, rows, around[rows], most_height)
     for _ in range(WIDENED):
         inside[around[inside].ravel()] = True
     return np.flatnonzero(inside)
+
+
+def _most_height(points: NDArray[np.float64], rows: NDArray[np.int64], around: NDArray[np.int64]) -> float:
+    """Return the height in the unit of the points; at rims the nearest points reach farther, and tell too wide a one."""
+    reaches = np.linalg.norm(points[around[:, -1]] - points[rows], axis=1)
+    return MOST_HEIGHT * float(np.median(reaches)) * float(np.sqrt(np.pi / around.shape[1]))
