@@ -13,7 +13,7 @@ struct AnisotropicRemeshingOptions {
   Index rounds = 12;         ///< of flips and relaxation
   Index valence_rounds = 6;  ///< the first of them, whose flips aim at six edges to a vertex
   double step = 0.9;         ///< share of the way to the middle of the ring that a vertex goes in a round
-  double pull = 0.3;         ///< what a squared distance from there costs, where one from the points' planes costs 1
+  double pull = 0.15;        ///< what a squared distance from there costs, where one from the points' planes costs 1
 };
 
 /// A mesh of an embedded surface.
@@ -31,9 +31,9 @@ struct EmbeddedMesh {
 /// it stands for let it: at a crease these hold it, along the crease or on a flat part they do not.
 ///
 /// What would harm is not done. Neither a move nor a flip may take the points of the vertices concerned farther from
-/// the faces around these than they are, or than points are on average before the first round; nor may it turn a face
-/// away from its points. Vertices on borders and on kept edges do not move, and kept edges are not flipped. So the
-/// topology, the numbers and the order of vertices and faces stay.
+/// the faces around these than they are, or than 0.7 times what points are on average (root mean square) before the
+/// first round; nor may it turn a face away from its points. Vertices on borders and on kept edges do not move, and
+/// kept edges are not flipped. So the topology, the numbers and the order of vertices and faces stay.
 ///
 /// @param vertices     (v, 3)
 /// @param coordinates  (v, d) of the vertices in the embedding, near the surface

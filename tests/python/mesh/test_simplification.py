@@ -45,7 +45,7 @@ def test_what_is_closed_stays_closed(shape: str) -> None:
 
 
 def test_what_is_open_stays_open() -> None:
-    made = reconstruct(*cloud_of("cylinder"), options(100))
+    made = reconstruct(*cloud_of("cylinder"), options(110))
     assert (made.report.mesh.boundary_loops, made.report.mesh.components) == (2, 1)
     fine = reconstruct(*cloud_of("cylinder"), options(375))
     np.testing.assert_allclose(np.ptp(made.vertices, axis=0), np.ptp(fine.vertices, axis=0), rtol=0.01)
