@@ -101,6 +101,6 @@ def layered_region(points: NDArray[np.float64], normals: NDArray[np.float64]) ->
 
 
 def _most_height(points: NDArray[np.float64], rows: NDArray[np.int64], around: NDArray[np.int64]) -> float:
-    """Return the height in the unit of the points; at rims the nearest points reach farther, and tell too wide a one."""
+    """Return the height in the unit of the points; at rims alone the nearest points reach too far to tell it."""
     reaches = np.linalg.norm(points[around[:, -1]] - points[rows], axis=1)
     return MOST_HEIGHT * float(np.median(reaches)) * float(np.sqrt(np.pi / around.shape[1]))
