@@ -12,7 +12,7 @@ from hdpea.errors import core_errors_translated
 from hdpea.geometry.triangles import mesh_area
 from hdpea.mesh.extraction import Mesh
 
-LEFT_BEHIND, MOST_LOST = 1.0, 0.05
+LEFT_BEHIND, MOST_LOST = 1.0, 0.025
 """Distance, in spacings of the vertices, from which a vertex is left behind by a repair, and the share of them that one
 may leave: of adis16480, whose thin pins pass through each other, one took a seventh, and left
 100 times the squared error, while those of 60 raw clouds take a fiftieth at most."""

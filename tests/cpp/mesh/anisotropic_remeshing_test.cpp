@@ -22,12 +22,13 @@ namespace hdpea {
 namespace {
 
 const Edges kNone(0, 2);
+const Points kNoPoints(0, 3);
 
 /// A fine mesh collapsed to few vertices, and the middles of its faces as the points of its surface, in R^3.
 struct Case {
   Case(const shapes::Mesh& fine, Index vertices, const AnisotropicRemeshingOptions& chosen = {})
       : options(chosen),
-        mesh(simplify_mesh(fine.vertices, fine.vertices, fine.faces, {.vertices = vertices}, {})),
+        mesh(simplify_mesh(fine.vertices, fine.vertices, fine.faces, kNoPoints, kNoPoints, {.vertices = vertices}, {})),
         points(fine.faces.rows(), 3),
         normals(fine.faces.rows(), 3) {
     for (Index f = 0; f < fine.faces.rows(); ++f) {

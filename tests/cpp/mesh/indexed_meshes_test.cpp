@@ -34,7 +34,9 @@ const Function kFunctions[] = {
      [](auto&... mesh) { refine_vertices(mesh..., Points::Zero(9, 3), Points::Constant(9, 3, 0.5), {}); }},
     {"remesh_isotropically", [](auto&... mesh) { remesh_isotropically(mesh..., {.edge_length = 0.4}); }},
     {"simplify_mesh",
-     [](auto& vertices, auto& faces) { simplify_mesh(vertices, vertices, faces, {.vertices = 9}, {}); }},
+     [](auto& vertices, auto& faces) {
+       simplify_mesh(vertices, vertices, faces, Points(0, 3), Points(0, 3), {.vertices = 9}, {});
+     }},
 };
 
 class IndexedMeshes : public testing::TestWithParam<Function> {
