@@ -44,10 +44,6 @@ constexpr double kUpright = 0.5, kUnfolded = 0.3;
 /// By how much more than now a step may take points from the faces, in squared distances.
 constexpr double kWorse = 1.1;
 
-/// Which share of their mean squared distance points may have from the faces in any case: all of it costs coarse meshes
-/// a tenth in rms, half of it costs G 0.003.
-constexpr double kOfMean = 0.5;
-
 /// Shares of a step that are tried, each half of the one before, until one does no harm.
 constexpr int kShares = 3;
 
@@ -297,7 +293,7 @@ class Remesher {
   double allowed(const std::array<Vertex, count>& vertices) const {
     double points = 0;
     for (const Vertex v : vertices) points += static_cast<double>(cells_.points(v.idx()).size());
-    return std::max(kWorse * squared_distances(vertices), kOfMean * mean_squared_distance_ * points);
+    return std::max(kWorse * squared_distances(vertices), mean_squared_distance_ * points);
   }
 
   Vector unit_normal(Vertex a, Vertex b, Vertex c) const {

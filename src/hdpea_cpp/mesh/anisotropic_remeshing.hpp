@@ -31,7 +31,7 @@ struct EmbeddedMesh {
 /// it stands for let it: at a crease these hold it, along the crease or on a flat part they do not.
 ///
 /// What would harm is not done. Neither a move nor a flip may take the points of the vertices concerned farther from
-/// the faces around these than they are, or than 0.7 times what points are on average (root mean square) before the
+/// the faces around these than they are, or than points are on average before the
 /// first round; nor may it turn a face away from its points. Vertices on borders and on kept edges do not move, and
 /// kept edges are not flipped. So the topology, the numbers and the order of vertices and faces stay.
 ///
