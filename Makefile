@@ -155,8 +155,9 @@ sanitize: debian $(VENV)/.dependencies
 	LD_PRELOAD="$$(g++ -print-file-name=libasan.so) $$(g++ -print-file-name=libubsan.so)" \
 	  ASAN_OPTIONS=detect_leaks=0 PYTHONPATH=$(SANITIZED) $(BIN)/pytest tests/python/core
 
+# The tests of a file run in one process, since they share the meshes that they look at.
 pytest: setup
-	$(BIN)/pytest
+	$(BIN)/pytest --numprocesses 2 --dist loadfile
 
 # Random clouds, files, commands and calls of the core, for as long as it takes: make fuzz CLOUDS=10000 SEED=7
 CLOUDS ?= 10000
