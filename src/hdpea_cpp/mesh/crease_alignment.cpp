@@ -75,6 +75,7 @@ class Alignment {
 
   AlignedMesh run() {
     take_corners();
+    hold_those_on_creases();
     for (int round = 0; round < 4; ++round) {
       const Index before = moved_ + flipped_;
       const std::vector<Crossing> crossings = find_crossings();
@@ -115,6 +116,18 @@ class Alignment {
         if (v < 0 || held_[v]) continue;
         if ((at(v) - corners.row(c)).norm() > kFarthest * lengths_(v)) continue;
         if (move(v, corners.row(c))) break;
+      }
+    }
+  }
+
+  /// Vertices that lie on a crease already: of their edges none crosses it.
+  void hold_those_on_creases() {
+    constexpr double nothing = 0.05;
+    for (Index v = 0; v < vertices_.rows(); ++v) {
+      for (Index s : near_.row(v)) {
+        if (held_[v] || s < 0) break;
+        if (lines_.covers(s, at(v)) && lines_.distance(s, at(v)) <= nothing * lines_.spacing(s))
+          move(v, lines_.foot(s, at(v)));
       }
     }
   }

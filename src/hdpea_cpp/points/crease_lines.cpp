@@ -18,6 +18,9 @@ using Vector = Eigen::Vector3d;
 /// Thinned samples are apart by half a spacing or a little more.
 constexpr double kStep = 0.5, kMeanStep = 0.6;
 
+/// How far neighbours on one line are turned from each other at most, and those across a gap, in degrees.
+constexpr double kTurned = 25, kTurnedAcrossGap = 12;
+
 double cosine_of(double degrees) { return std::cos(degrees * std::numbers::pi / 180); }
 
 double off_line(const CreaseSample& sample, const Vector& x) {
@@ -25,10 +28,10 @@ double off_line(const CreaseSample& sample, const Vector& x) {
   return (offset - sample.direction * sample.direction.dot(offset)).norm();
 }
 
-/// Whether both lie on one line between the same two surfaces.
-bool continues(const CreaseSample& one, const CreaseSample& other) {
+/// Whether both lie on one line between the same two surfaces, turned by at most an angle in degrees.
+bool continues(const CreaseSample& one, const CreaseSample& other, double most_turned = kTurned) {
   constexpr double most_off = 0.4;
-  static const double least_cosine = cosine_of(25);
+  const double least_cosine = cosine_of(most_turned);
   const auto agree = [&](const Vector& first, const Vector& second) {
     return one.first.dot(first) > least_cosine && one.second.dot(second) > least_cosine;
   };
@@ -123,22 +126,40 @@ std::vector<CreaseSample> thinned(std::vector<CreaseSample> samples) {
 }
 
 std::vector<CreaseSample> on_long_lines(const std::vector<CreaseSample>& samples, double min_length) {
-  constexpr Index neighbors = 12;
-  constexpr double most_apart = 2;
+  constexpr Index neighbors = 12, far_neighbors = 48;
+  constexpr double most_apart = 2, most_gap = 6;
+  constexpr int least_of_piece = 4;
   if (samples.empty()) return samples;
-  const Neighbors near = nearest_neighbors(crease_positions(samples), neighbors);
-  DisjointSets lines(static_cast<Index>(samples.size()));
-  for (std::size_t i = 0; i < samples.size(); ++i) {
-    for (Index j : near.row(static_cast<Index>(i))) {
-      if (j < 0 || (samples[j].position - samples[i].position).norm() > most_apart * samples[i].spacing) continue;
-      if (continues(samples[i], samples[j])) lines.join(static_cast<Index>(i), j);
+  const Points positions = crease_positions(samples);
+  const Neighbors near = nearest_neighbors(positions, far_neighbors);
+  const Index count = positions.rows();
+  const auto apart = [&](Index i, Index j) {
+    return (positions.row(i) - positions.row(j)).norm() / samples[i].spacing;
+  };
+  DisjointSets pieces(count);
+  for (Index i = 0; i < count; ++i) {
+    for (Index j : near.row(i).head(neighbors)) {
+      if (j >= 0 && apart(i, j) <= most_apart && continues(samples[i], samples[j])) pieces.join(i, j);
+    }
+  }
+  std::vector<int> sizes(samples.size(), 0);
+  for (Index i = 0; i < count; ++i) ++sizes[pieces.find(i)];
+  // Pieces of one line, and lines that meet, prove each other.
+  DisjointSets lines(count);
+  for (Index i = 0; i < count; ++i) {
+    lines.join(i, pieces.find(i));
+    if (sizes[pieces.find(i)] < least_of_piece) continue;
+    for (Index j : near.row(i)) {
+      if (j < 0 || sizes[pieces.find(j)] < least_of_piece) continue;
+      const bool one_line = apart(i, j) <= most_gap && continues(samples[i], samples[j], kTurnedAcrossGap);
+      if (one_line || meeting_point(samples[i], samples[j])) lines.join(i, j);
     }
   }
   std::vector<double> lengths(samples.size(), 0);
-  for (std::size_t i = 0; i < samples.size(); ++i) lengths[lines.find(static_cast<Index>(i))] += kMeanStep;
+  for (Index i = 0; i < count; ++i) lengths[lines.find(i)] += kMeanStep;
   std::vector<CreaseSample> kept;
-  for (std::size_t i = 0; i < samples.size(); ++i) {
-    if (lengths[lines.find(static_cast<Index>(i))] >= min_length) kept.push_back(samples[i]);
+  for (Index i = 0; i < count; ++i) {
+    if (lengths[lines.find(i)] >= min_length) kept.push_back(samples[i]);
   }
   return kept;
 }

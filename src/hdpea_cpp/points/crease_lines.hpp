@@ -11,7 +11,10 @@ namespace hdpea {
 /// The best samples, none within half a spacing of another in its direction.
 std::vector<CreaseSample> thinned(std::vector<CreaseSample> samples);
 
-/// Those that follow each other along a line at least `min_length` spacings long; `samples` are thinned.
+/// Those that follow each other along lines at least `min_length` spacings long; `samples` are thinned.
+///
+/// Pieces of one line with a gap of up to 6 spacings count together, and so do lines that meet: what is short by
+/// itself, as the edges of a slab, ends where others do.
 std::vector<CreaseSample> on_long_lines(const std::vector<CreaseSample>& samples, double min_length);
 
 /// Finds the corners where lines of different directions end, and adds samples from each end to its corner.

@@ -18,7 +18,8 @@ namespace hdpea {
 namespace {
 
 using Vector = Eigen::Vector3d;
-using Found = std::vector<std::optional<CreaseSample>>;
+/// Several to a place where creases meet.
+using Found = std::vector<std::vector<CreaseSample>>;
 
 /// Nearest points that the spacing is told from.
 constexpr int kOfSpacing = 12;
@@ -33,44 +34,54 @@ class Search {
   /// Around points near which normals differ. Around some of them the wedge lies to one side, and fits less well.
   std::vector<CreaseSample> around_points() const {
     const double smooth = cosine_of(25), other_wall = -0.7, lenience = 2;
-    const Neighbors near = nearest_neighbors(points_, points_, options_.neighbors);
+    const Neighbors near = nearest_neighbors(points_, points_, candidates());
     Found found(static_cast<std::size_t>(points_.rows()));
     parallel_for(points_.rows(), [&](Index i) {
-      const Neighborhood around = neighborhood(points_.row(i), normals_.row(i), other_wall, near.row(i));
+      const Vector own = normals_.row(i);
+      const auto visible = [&](const Vector& normal) { return normal.dot(own) >= other_wall; };
+      const Neighborhood around = neighborhood(points_.row(i), near.row(i), visible);
       if (around.points.empty()) return;
-      const auto [first, second] = extreme_normals(around);
-      if (first.dot(second) <= smooth) found[i] = sample(around, first, second, lenience * options_.max_residual);
+      const std::vector<Vector> normals = differing_normals(around);
+      for (std::size_t a = 0; a < normals.size(); ++a) {
+        for (std::size_t b = a + 1; b < normals.size(); ++b) {
+          if (normals[a].dot(normals[b]) > smooth) continue;
+          const auto made =
+              sample(points_.row(i), near.row(i), normals[a], normals[b], lenience * options_.max_residual);
+          if (made) found[i].push_back(*made);
+        }
+      }
     });
     return gathered(found);
   }
 
   /// Around the places that were found.
   std::vector<CreaseSample> around_samples(const std::vector<CreaseSample>& samples) const {
-    const double other_wall = -0.2;
     if (samples.empty()) return {};
-    const Neighbors near = nearest_neighbors(points_, crease_positions(samples), options_.neighbors);
+    const Neighbors near = nearest_neighbors(points_, crease_positions(samples), candidates());
     Found found(samples.size());
     parallel_for(static_cast<Index>(samples.size()), [&](Index i) {
       const CreaseSample& old = samples[i];
-      const Vector facing = (old.first + old.second).normalized();
-      found[i] = sample(neighborhood(old.position, facing, other_wall, near.row(i)), old.first, old.second,
-                        options_.max_residual);
+      const auto made = sample(old.position, near.row(i), old.first, old.second, options_.max_residual);
+      if (made) found[i].push_back(*made);
     });
     return gathered(found);
   }
 
  private:
-  /// Of the nearest points those whose normal does not face the other way.
-  template <class Row>
-  Neighborhood neighborhood(const Vector& centre, const Vector& facing, double least_cosine, const Row& row) const {
+  /// Nearest points, of which some may belong to a third plane or to another wall.
+  Index candidates() const { return options_.neighbors * 3 / 2; }
+
+  /// Of the nearest points those with a normal that is wanted.
+  template <class Row, class Wanted>
+  Neighborhood neighborhood(const Vector& centre, const Row& row, const Wanted& wanted) const {
     Neighborhood around{{}, {}, centre, 0};
     double radius = 0;
     int count = 0;
     for (Index j : row) {
-      if (j < 0) break;
+      if (j < 0 || static_cast<Index>(around.points.size()) == options_.neighbors) break;
       const Vector point = points_.row(j), normal = normals_.row(j);
       if (++count <= kOfSpacing) radius = (point - centre).norm();
-      if (normal.dot(facing) < least_cosine) continue;
+      if (!wanted(normal)) continue;
       around.points.push_back(point);
       around.normals.push_back(normal);
     }
@@ -78,10 +89,16 @@ class Search {
     return around;
   }
 
-  std::optional<CreaseSample> sample(const Neighborhood& around, const Vector& first, const Vector& second,
+  /// Fits a wedge to the points whose normals are near one of two: near a corner there are others.
+  template <class Row>
+  std::optional<CreaseSample> sample(const Vector& centre, const Row& row, const Vector& first, const Vector& second,
                                      double share) const {
     constexpr std::size_t least_points = 10;
     constexpr double reach = 2.5;
+    static const double of_a_side = cosine_of(50);
+    const Neighborhood around = neighborhood(centre, row, [&](const Vector& normal) {
+      return std::max(normal.dot(first), normal.dot(second)) >= of_a_side;
+    });
     if (around.points.size() < least_points || !std::isnormal(around.spacing)) return std::nullopt;
     const auto wedge = fit_wedge(around, first, second);
     if (!wedge || !(wedge->first.dot(wedge->second) <= cosine_of(options_.min_angle))) return std::nullopt;
@@ -95,7 +112,7 @@ class Search {
   static std::vector<CreaseSample> gathered(const Found& found) {
     std::vector<CreaseSample> samples;
     for (const auto& each : found) {
-      if (each) samples.push_back(*each);
+      samples.insert(samples.end(), each.begin(), each.end());
     }
     return samples;
   }

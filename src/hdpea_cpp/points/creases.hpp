@@ -14,7 +14,7 @@ struct CreaseOptions {
   Index neighbors = 32;       ///< points that two half-planes are fitted to, and a little more than half as many
   double min_angle = 40;      ///< degrees between their normals
   double max_residual = 0.4;  ///< variance off the half-planes, as a share of that off a quadratic surface
-  double min_length = 12;     ///< of a line of creases, in spacings
+  double min_length = 16;     ///< of lines of creases that meet, together, in spacings
 };
 
 /// A place on a crease.
@@ -35,11 +35,11 @@ struct Creases {
 /// Finds the sharp edges that points show.
 ///
 /// Around a point near which normals differ, two half-planes that meet in a line (a wedge) are fitted to the nearest
-/// points, and once more around the line. They are a crease where they fit far better than a smooth quadratic surface:
-/// noise is as far off the one as off the other, and a bend wider than the points are apart is farther off the wedge.
-/// Normals are where the fit begins; they may be smeared across the crease, as estimated ones are. Samples count only
-/// where they follow each other along a line of some length. Where such lines end and meet is a corner, and the lines
-/// go on up to it.
+/// points whose normals are near those of the two, and once more around the line. They are a crease where they fit far
+/// better than a smooth quadratic surface: noise is as far off the one as off the other, and a bend wider than the
+/// points are apart is farther off the wedge. Normals are where the fit begins; they may be smeared across the crease,
+/// as estimated ones are. Samples count only where they follow each other along a line of some length. Where such lines
+/// end and meet is a corner, and the lines go on up to it.
 ///
 /// @param points   (n, 3), n >= 1
 /// @param normals  (n, 3) unit, consistently oriented

@@ -59,15 +59,26 @@ std::optional<std::pair<Vector, Vector>> intersection(const Plane& one, const Pl
 
 }  // namespace
 
-std::pair<Vector, Vector> extreme_normals(const Neighborhood& around) {
-  const auto farthest = [&](const Vector& from) {
-    return *std::min_element(around.normals.begin(), around.normals.end(),
-                             [&](const Vector& m, const Vector& n) { return m.dot(from) < n.dot(from); });
-  };
+std::vector<Vector> differing_normals(const Neighborhood& around) {
+  constexpr double alike = 0.8;
+  constexpr std::size_t most = 4;
   Vector sum = Vector::Zero();
   for (const Vector& n : around.normals) sum += n;
-  const Vector first = farthest(sum);
-  return {first, farthest(first)};
+  // Of each normal, how like it is to the likest of those that were taken.
+  std::vector<double> likeness;
+  for (const Vector& n : around.normals) likeness.push_back(n.dot(sum) / around.normals.size());
+  std::vector<Vector> taken;
+  while (taken.size() < most) {
+    const auto least = std::min_element(likeness.begin(), likeness.end());
+    if (taken.size() >= 2 && *least > alike) break;
+    const Vector next = around.normals[least - likeness.begin()];
+    for (std::size_t i = 0; i < likeness.size(); ++i) {
+      const double like = around.normals[i].dot(next);
+      likeness[i] = taken.empty() ? like : std::max(likeness[i], like);
+    }
+    taken.push_back(next);
+  }
+  return taken;
 }
 
 std::optional<Wedge> fit_wedge(const Neighborhood& around, const Vector& first, const Vector& second) {

@@ -24,8 +24,8 @@ struct Wedge {
   double residual;                ///< variance of the points off their half-planes, in squared spacings
 };
 
-/// The two normals that differ most.
-std::pair<Eigen::Vector3d, Eigen::Vector3d> extreme_normals(const Neighborhood& around);
+/// The two normals that differ most, and up to two more that differ from all before, as around a corner.
+std::vector<Eigen::Vector3d> differing_normals(const Neighborhood& around);
 
 /// Fits a wedge: points are assigned to half-planes and planes to points, in turn, as in k-means.
 ///

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <cmath>
 
 namespace hdpea {
@@ -24,21 +25,33 @@ Neighborhood corner_of_a_box() {
 
 TEST(Wedge, OfTwoHalfPlanesIsTheirLine) {
   const Neighborhood around = corner_of_a_box();
-  const auto [first, second] = extreme_normals(around);
-  const auto wedge = fit_wedge(around, first, second);
+  const auto normals = differing_normals(around);
+  ASSERT_EQ(normals.size(), 2);
+  const auto wedge = fit_wedge(around, normals[0], normals[1]);
   ASSERT_TRUE(wedge);
   EXPECT_LT(wedge->position.norm(), 1e-9);
   EXPECT_NEAR(std::abs(wedge->direction.y()), 1, 1e-9);
   EXPECT_NEAR(wedge->residual, 0, 1e-12);
-  EXPECT_GT(quadric_residual(around, (first + second).normalized()), 0.01);
+  EXPECT_GT(quadric_residual(around, (normals[0] + normals[1]).normalized()), 0.01);
 }
 
 TEST(Wedge, OfOnePlaneIsNone) {
   Neighborhood around = corner_of_a_box();
   for (auto& point : around.points) point.z() = 0;
   for (auto& normal : around.normals) normal = {0, 0, 1};
-  const auto [first, second] = extreme_normals(around);
-  EXPECT_FALSE(fit_wedge(around, first, second));
+  const auto normals = differing_normals(around);
+  EXPECT_FALSE(fit_wedge(around, normals[0], normals[1]));
+}
+
+TEST(Wedge, NormalsThatDifferAreOneOfEachSideOfACorner) {
+  Neighborhood around = corner_of_a_box();
+  for (int i = 0; i < 5; ++i) {
+    around.points.emplace_back(-0.2 * i, 1.1, -0.2);
+    around.normals.emplace_back(0, 1, 0);
+  }
+  const auto normals = differing_normals(around);
+  ASSERT_EQ(normals.size(), 3);
+  EXPECT_NEAR(std::abs(normals[0].dot(normals[1].cross(normals[2]))), 1, 1e-9);
 }
 
 TEST(Wedge, OfFewPointsIsNone) {

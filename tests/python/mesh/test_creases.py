@@ -34,6 +34,15 @@ def test_creases_of_a_cube_lie_on_its_twelve_edges_and_meet_in_its_eight_corners
     assert np.linalg.norm(nearest - edges, axis=1).max() < SPACING
 
 
+def test_a_slab_a_few_spacings_thick_has_its_eight_corners():
+    half = np.array([0.5, 0.5, 0.05])
+    creases = _core.find_creases(*clouds.box(3_000, (1, 1, 0.1)))
+    assert {tuple(corner) for corner in np.sign(creases.corners).astype(int)} == {
+        (x, y, z) for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)
+    }
+    assert abs(abs(creases.corners) - half).max() < 0.1 * half[2]
+
+
 def test_creases_do_not_need_the_normals_of_either_side():
     points, normals = clouds.box(COUNT)
     neighbors = _core.nearest_neighbors(points, 12)

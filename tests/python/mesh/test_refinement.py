@@ -23,7 +23,16 @@ def rms(shape: str, refine: bool) -> float:
 
 @pytest.mark.parametrize("shape", [*clouds.CLOSED, "cylinder"])
 def test_the_points_come_closer(shape: str) -> None:
-    assert rms(shape, refine=True) < 0.8 * rms(shape, refine=False)
+    before = rms(shape, refine=False)
+    # Where creases are aligned, a mesh of flat sides may be exact before any fit: to the last digits then.
+    assert rms(shape, refine=True) < max(0.8 * before, 1e-12)
+
+
+@pytest.mark.parametrize("shape", ["cube", "plate"])
+def test_flat_sides_are_met_exactly(shape: str) -> None:
+    distances = mesh_of(shape).report.distances
+    assert distances is not None
+    assert distances.rms < 1e-3 * distances.spacing
 
 
 @pytest.mark.parametrize("shape", ["torus", "cube", "cylinder"])
