@@ -4,7 +4,7 @@
     python tools/command_pages.py docs/commands/*.md
 
 A part stands between ``<!-- hdpea NAME -->`` and ``<!-- /hdpea NAME -->``: how the command is called, and a table of
-its options. So names, defaults and explanations have one home, the options themselves, and a test holds the pages to it.
+its options. So names, defaults and explanations have one home, the options, and a test holds the pages to it.
 """
 
 from __future__ import annotations

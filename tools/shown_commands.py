@@ -3,8 +3,9 @@
 
     python tools/shown_commands.py [PAGE ...]
 
-Each page's commands run in a folder of its own, in their order, with small clouds and meshes of the names that pages use.
-Those that take hours, or change the machine, do not run: ``NOT_RUN`` says which, and why. Their flags are checked even so.
+Each page's commands run in a folder of its own, in their order, with small clouds and meshes of the names that pages
+use. Those that take hours, or change the machine, do not run: ``NOT_RUN`` says which, and why. A test checks their flags
+even so.
 """
 
 from __future__ import annotations
@@ -116,10 +117,8 @@ def run(command: str, folder: Path) -> subprocess.CompletedProcess[str]:
     """Run a command in a folder that was prepared; no browser opens, and the folder is the home."""
     path = os.pathsep.join([str(folder / "programs"), os.environ["PATH"]])
     environment = {**os.environ, "PATH": path, "HOME": str(folder), "BROWSER": "true"}
-    # For the builtin `time`, bash. A mesh of a round shape with few vertices is, to its word, not as exact as asked for.
-    return subprocess.run(
-        ["/bin/bash", "-ec", command], cwd=folder, env=environment, capture_output=True, text=True, check=False
-    )
+    shell = ["/bin/bash", "-ec", command]  # bash, which has `time`
+    return subprocess.run(shell, cwd=folder, env=environment, capture_output=True, text=True, check=False)
 
 
 def run_page(page: str) -> list[str]:
