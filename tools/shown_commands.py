@@ -4,8 +4,8 @@
     python tools/shown_commands.py [PAGE ...]
 
 Each page's commands run in a folder of its own, in their order, with small clouds and meshes of the names that pages
-use. Those that take hours, or change the machine, do not run: ``NOT_RUN`` says which, and why. A test checks their flags
-even so.
+use. Those that take hours, or change the machine, do not run: ``NOT_RUN`` says which, and why. Even so a test checks
+their flags.
 """
 
 from __future__ import annotations

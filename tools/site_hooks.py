@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What the site has besides the files of docs/: the README as its front page, and the sources that pages link to.
 
-Pages link to files of the repository, as they would be read there. Those outside docs/ become pages of their own here, so
-that every link leads somewhere without a network. Formulas become MathML, which browsers draw unaided.
+Pages link to files of the repository, as they would be read there. Those outside docs/ become pages of their own here,
+so that every link leads somewhere without a network. Formulas become MathML, which browsers draw unaided.
 """
 
 from __future__ import annotations
