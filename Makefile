@@ -127,10 +127,10 @@ demo: setup $(DEMO)/kitten.xyz
 
 # ---- docs ------------------------------------------------------------------------------------------
 
-# Every warning is an error, a link that leads nowhere among them. The banner is about other programs.
+# Every warning is an error (not with --quiet), a link that leads nowhere among them. The banner is about other programs.
 docs: $(VENV)/.dependencies
 	$(BIN)/pip install -qq -c $(CONSTRAINTS) --group docs
-	NO_MKDOCS_2_WARNING=1 $(BIN)/mkdocs build --quiet
+	NO_MKDOCS_2_WARNING=1 $(BIN)/mkdocs build
 	@echo "== Open build/site/index.html in a browser."
 
 # Every command on the pages, but for those that take hours or change the machine (tools/shown_commands.py).
