@@ -40,7 +40,8 @@ NOT_RUN = {
 """Commands that are not run, by how they begin, and why."""
 
 BLOCK = re.compile(r"^```console\n(.*?)^```", re.DOTALL | re.MULTILINE)
-COUNT = 2_000
+FEW, MANY = 2_000, 12_000
+"""Points of the clouds: enough for most commands, and for those that ask for 5,000 vertices."""
 
 
 def shown(page: str) -> list[str]:
@@ -77,10 +78,10 @@ def _calls_of_hdpea(command: str) -> Iterator[list[str]]:
             yield words
 
 
-def prepare(folder: Path) -> None:
-    """Make the files that pages name, all small: clouds of an ellipsoid, spheres as meshes, and `hdpea` itself."""
+def prepare(folder: Path, count: int) -> None:
+    """Make the files that pages name: clouds of so many points of an ellipsoid, balls as meshes, and `hdpea` itself."""
     random = np.random.default_rng(0)
-    normals = random.standard_normal((COUNT, 3))
+    normals = random.standard_normal((count, 3))
     normals /= np.linalg.norm(normals, axis=1, keepdims=True)
     points = normals * [2, 1, 1]
     for name in ("scan.ply", "a.ply", "front.ply", "back.ply", "tile.ply", "statue.ply"):
@@ -121,12 +122,12 @@ def run(command: str, folder: Path) -> subprocess.CompletedProcess[str]:
     return subprocess.run(shell, cwd=folder, env=environment, capture_output=True, text=True, check=False)
 
 
-def run_page(page: str) -> list[str]:
-    """Run the commands of a page; return what went wrong."""
+def run_page(page: str, count: int = MANY) -> list[str]:
+    """Run the commands of a page on clouds of so many points; return what went wrong."""
     wrong = []
     with TemporaryDirectory() as name:
         folder = Path(name)
-        prepare(folder)
+        prepare(folder, count)
         for command in shown(page):
             why = reason_not_to_run(command)
             click.echo(f"{page}: {command}" + (f"\n    not run: {why}" if why else ""))
