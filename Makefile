@@ -24,10 +24,10 @@ PACKAGE_SOURCES := CMakeLists.txt pyproject.toml $(shell find src python -type f
 CPP_SOURCES := $(shell find src tests/cpp examples/cpp -name '*.[ch]pp')
 
 .NOTPARALLEL:
-.PHONY: help setup demo wheel three test lint format core sanitize pytest fuzz bench-setup results losses trained-losses clean debian
+.PHONY: help setup demo docs docs-test wheel three test lint format core sanitize pytest fuzz bench-setup results losses trained-losses clean debian
 
 help:
-	@echo "make demo      reconstruct two real scans into $(DEMO)/"
+	@echo "make demo      reconstruct two clouds into $(DEMO)/"
 	@echo "make test      everything below"
 	@echo "make lint      ruff, mypy, import-linter, clang-format"
 	@echo "make core      the C++ core: build with warnings as errors, run its tests"
@@ -35,6 +35,7 @@ help:
 	@echo "make pytest    the Python tests, on the installed package"
 	@echo "make fuzz      random clouds and damaged files, see docs/robustness.md"
 	@echo "make results   one suite of benchmarks, see docs/benchmark.md; make losses trains for one"
+	@echo "make docs      the site, into build/site/; make docs-test runs the commands that it shows"
 	@echo "make wheel     wheel and sdist into dist/, see docs/releasing.md"
 	@echo "make setup     Debian packages, $(VENV)/, the package in it"
 	@echo "make format    let ruff and clang-format rewrite the sources"
@@ -111,16 +112,30 @@ three:
 
 # ---- demo ------------------------------------------------------------------------------------------
 
-$(DEMO)/hippo1.ply: | debian
+DEMO_CLOUDS := kitten point_set_3
+$(DEMO)/kitten.xyz: | debian
 	@mkdir -p $(DEMO)
-	tar -xzf $(SCANS) -C $(DEMO) --strip-components=2 data/points_3/hippo1.ply data/points_3/oni.pwn
+	tar -xzf $(SCANS) -C $(DEMO) --strip-components=2 $(DEMO_CLOUDS:%=data/points_3/%.xyz)
 
-demo: setup $(DEMO)/hippo1.ply
-	$(BIN)/hdpea reconstruct $(DEMO)/hippo1.ply $(DEMO)/hippo1.obj \
-	  --report $(DEMO)/hippo1.json --picture $(DEMO)/hippo1.png --page $(DEMO)/hippo1.html
-	$(BIN)/hdpea reconstruct $(DEMO)/oni.pwn $(DEMO)/oni.obj \
-	  --report $(DEMO)/oni.json --picture $(DEMO)/oni.png --page $(DEMO)/oni.html
-	@echo "== Open $(DEMO)/hippo1.html and $(DEMO)/oni.html in a browser; pictures, meshes and reports lie beside them."
+demo: setup $(DEMO)/kitten.xyz
+	@for cloud in $(DEMO_CLOUDS); do \
+	  echo "== $$cloud"; \
+	  $(BIN)/hdpea reconstruct $(DEMO)/$$cloud.xyz $(DEMO)/$$cloud.obj \
+	    --report $(DEMO)/$$cloud.json --picture $(DEMO)/$$cloud.png --page $(DEMO)/$$cloud.html || exit; \
+	done
+	@echo "== Open $(DEMO_CLOUDS:%=$(DEMO)/%.html) in a browser; pictures, meshes and reports lie beside them."
+
+# ---- docs ------------------------------------------------------------------------------------------
+
+# Every warning is an error (not with --quiet), a link that leads nowhere among them. The banner is about other programs.
+docs: $(VENV)/.dependencies
+	$(BIN)/pip install -qq -c $(CONSTRAINTS) --group docs
+	NO_MKDOCS_2_WARNING=1 $(BIN)/mkdocs build
+	@echo "== Open build/site/index.html in a browser."
+
+# Every command on the pages, but for those that take hours or change the machine (tools/shown_commands.py).
+docs-test: setup docs
+	$(BIN)/python tools/shown_commands.py
 
 # ---- tests -----------------------------------------------------------------------------------------
 

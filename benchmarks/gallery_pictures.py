@@ -36,8 +36,7 @@ def draw_cloud(path: Path, title: str, known: Known, meshes: Mapping[str, Mesh |
     """Draw the points of a cloud, lit by their normals, and every mesh of it; nothing where there is none."""
     points = known.frame.to_world(known.points)
     camera = Camera.before_points(points, known.normals)
-    brightness = abs(known.normals @ camera.view_from_world.T @ LIGHT).clip(0.25, 1)
-    shades = np.rint(brightness[:, None] * [150, 170, 205]).astype(np.uint8)
+    shades = shades_of(known.normals, camera)
     row = Image.new("RGB", (PANEL[0] * (1 + len(meshes)), PANEL[1]), "white")
     with TemporaryDirectory() as folder:
         panel = Path(folder) / "panel.png"
@@ -48,6 +47,12 @@ def draw_cloud(path: Path, title: str, known: Known, meshes: Mapping[str, Mesh |
                 draw_mesh(panel, *mesh, size=PANEL, camera=camera)
             _paste(row, panel if mesh is not None else None, place, name)
     row.save(path, optimize=True)
+
+
+def shades_of(normals: NDArray[np.float64], camera: Camera) -> NDArray[np.uint8]:
+    """Return colours (n, 3) of points with normals (n, 3), as the light falls on them, whichever side is out."""
+    brightness = abs(normals @ camera.view_from_world.T @ LIGHT).clip(0.25, 1)
+    return np.rint(brightness[:, None] * [150, 170, 205]).astype(np.uint8)
 
 
 def _paste(row: Image.Image, panel: Path | None, place: int, title: str) -> None:

@@ -165,6 +165,9 @@ def reconstruct(
 ) -> Reconstruction:
     """Make a compact anisotropic triangle mesh of a point cloud.
 
+    Parameters from `vertices` to `texture` are the common ones among the options, and overrule `options`, where all
+    others are.
+
     Parameters
     ----------
     points
@@ -208,9 +211,6 @@ def reconstruct(
     attributes
         (n,) or (n, c) by name, of points given as an array: what the vertices are to have, too. Colours are red, green
         and blue, or `colors` (n, 3).
-
-    Those from `vertices` to `texture` are the common ones among the options, and overrule `options`, where all others
-    are.
 
     Raises
     ------
