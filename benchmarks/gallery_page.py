@@ -85,7 +85,7 @@ def draw_sheet(path: Path, out: Path, shown: Sequence[Shown]) -> None:
 
 def table(shown: Sequence[Shown]) -> str:
     """Return what was made of what, as Markdown."""
-    titles = ["", "points", "scan", "triangles", "root mean square distance, in spacings", "closed"]
+    titles = ["", "points kept", "scan", "triangles", "root mean square distance, in spacings", "closed"]
     rows = [f"| {' | '.join(titles)} |", "|---" * len(titles) + "|"]
     for each in shown:
         mesh, distances = each.report["mesh"], each.report["distances"]["in_spacings"]

@@ -71,6 +71,11 @@ def test_links_lead_somewhere(page: str) -> None:
     assert [link for link in links if not (file.parent / link).exists()] == []
 
 
+def test_every_page_is_in_the_menu_of_the_site() -> None:
+    menu = set(re.findall(r": (\S+\.md)$", (ROOT / "mkdocs.yml").read_text(), re.MULTILINE))
+    assert menu >= {str(page.relative_to(ROOT / "docs")) for page in (ROOT / "docs").rglob("*.md")}
+
+
 @pytest.mark.parametrize("page", [page for page in shown_commands.PAGES if shown_commands.shown(page)])
 def test_commands_on_the_pages_are_understood(page: str) -> None:
     for line in shown_commands.shown(page):
