@@ -3,42 +3,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from contextlib import contextmanager
-
 import torch
 from torch import Tensor, nn
 from torch.nn import functional
 
 from hdpea.network.voxels import Voxels
+from hdpea.runtime.threads import fixed_order
 
 
 def rows(values: Tensor, index: Tensor) -> Tensor:
     """Return values (n, c) at index (...) as (..., c); the gradient does not depend on the number of threads."""
     return functional.embedding(index, values)
-
-
-FEW_ROWS = 64
-"""Matrix products of fewer rows are computed by one thread."""
-
-
-@contextmanager
-def fixed_order(rows: int, columns: int) -> Iterator[None]:
-    """Compute small matrix products by one thread, so that the number of threads changes no bit of the result.
-
-    For few rows, and for a single column, the BLAS splits the work such that sums run in another order for another
-    number of threads. Larger products are split by rows, each of which is summed in one order. The small ones would
-    gain nothing from more threads.
-    """
-    threads = torch.get_num_threads()
-    if threads == 1 or (rows >= FEW_ROWS and columns > 1):
-        yield
-        return
-    torch.set_num_threads(1)
-    try:
-        yield
-    finally:
-        torch.set_num_threads(threads)
 
 
 class Linear(nn.Linear):
