@@ -16,6 +16,14 @@ def rows(values: Tensor, index: Tensor) -> Tensor:
     return functional.embedding(index, values)
 
 
+def full_precision(like: Tensor) -> torch.autocast:
+    """Return a context that computes in float32 even within autocast, on the device of `like`.
+
+    Least squares, and psi itself, which is compared between neighbours, need more than the 8 bits of bfloat16.
+    """
+    return torch.autocast(like.device.type, enabled=False)
+
+
 class Linear(nn.Linear):
     """A linear layer whose result does not depend on the number of threads."""
 
@@ -41,7 +49,8 @@ class SparseConvolution(nn.Module):
         for part, weight in zip(torch.split(rows(x, sources), counts), self.weight, strict=True):
             with fixed_order(len(part), weight.shape[1]):
                 moved.append(part @ weight)
-        return torch.zeros_like(x).index_add(0, targets, torch.cat(moved))  # moved: (pairs, c)
+        # Under autocast products have 16 bits, which are too few for sums.
+        return torch.zeros_like(x, dtype=torch.float32).index_add(0, targets, torch.cat(moved).float())
 
 
 class PatchAttention(nn.Module):

@@ -26,6 +26,9 @@ class Training:
     best: float | None = None
     """The best score of a validation so far."""
 
+    half: bool
+    """Whether the layers compute in bfloat16: a GPU is faster then, a CPU slower. Losses and fits are in float32."""
+
     def __init__(
         self, samples: Samples, network: NetworkOptions, options: TrainingOptions, workers: Workers | None = None
     ) -> None:
@@ -45,6 +48,7 @@ class Training:
         )
         per_epoch = math.ceil(len(samples.names) / options.batch)
         self.steps = options.steps if options.epochs is None else options.epochs * per_epoch
+        self.half = self.workers.device.type == "cuda"
         self.neighbors = max(network.neighbors, options.loss.distance_neighbors, FIT_NEIGHBORS)
 
     def resume(self, checkpoint: Checkpoint) -> None:
@@ -93,7 +97,7 @@ class Training:
         for group in self.optimizer.param_groups:
             group["lr"] = group["full_rate"] * share
         crop = crop.to(self.workers.device)
-        with torch.autocast(self.workers.device.type, torch.bfloat16, enabled=self.workers.device.type == "cuda"):
+        with torch.autocast(self.workers.device.type, torch.bfloat16, enabled=self.half):
             psi = self.shared(crop.clouds)
         parts = loss_parts(psi.float(), crop.truth, options.loss)
         self.optimizer.zero_grad()

@@ -73,6 +73,20 @@ def test_every_loss_trains(loss: str, tmp_path: Path) -> None:
     assert train(InMemory(), None, tmp_path, TINY, options).step == 2
 
 
+@pytest.mark.parametrize("stem", [True, False])
+def test_half_precision_trains_as_full_does(stem: bool) -> None:
+    # What a GPU runs, on a CPU.
+    network = replace(TINY, stem=stem)
+    losses = {}
+    for half in (False, True):
+        training = Training(InMemory(), network, replace(QUICK, steps=4))
+        training.half = half
+        losses[half] = [training.run_step(training.crop(step))["loss"] for step in range(4)]
+        assert all(value.dtype == torch.float32 for value in training.network.state_dict().values())
+    assert losses[True] != losses[False]
+    assert losses[True] == pytest.approx(losses[False], rel=0.03)
+
+
 def test_other_options_are_refused_but_for_the_steps(tmp_path: Path) -> None:
     train(InMemory(), None, tmp_path, TINY, replace(QUICK, steps=2))
     assert train(InMemory(), None, tmp_path, TINY, replace(QUICK, steps=3)).step == 3
