@@ -23,6 +23,7 @@ from hdpea.surface.surface import Surface
 from hdpea.training.checkpoint import FORMAT, Checkpoint
 from hdpea.training.crops import crop_number, cut_crop
 from hdpea.training.joined import Joined
+from hdpea.training.loaders import StepCrops, prefetched
 from hdpea.training.loop import train
 from hdpea.training.options import PRESETS, CropOptions, LossOptions, TrainingOptions
 from hdpea.training.steps import Training, learning_share
@@ -59,6 +60,61 @@ def test_a_training_that_was_stopped_ends_as_one_that_was_not(tmp_path: Path) ->
     assert same(vars(first), vars(second))
 
 
+class Clock:
+    """Tells a second more each time."""
+
+    def __init__(self) -> None:
+        self.seconds = 0.0
+
+    def __call__(self) -> float:
+        self.seconds += 1
+        return self.seconds
+
+
+def test_a_training_of_minutes_ends_by_the_clock_with_the_rate_down_and_resumes(tmp_path: Path) -> None:
+    straight, stopped = tmp_path / "straight", tmp_path / "stopped"
+    straight.mkdir()
+    stopped.mkdir()
+    options = replace(QUICK, minutes=0.2, save_minutes=0.1)
+    ended = train(InMemory(), None, straight, TINY, options, clock=Clock())
+    assert (ended.step, ended.seconds, ended.done) == (12, 12, 1)
+    assert max(group["lr"] for group in ended.optimizer.param_groups) < 0.1 * options.learning_rate
+    with pytest.raises(Interrupted):
+        train(InMemory(), None, stopped, TINY, options, stop_after(5), clock=Clock())
+    train(InMemory(), None, stopped, TINY, options, clock=Clock())
+    first, second = (Checkpoint.read(folder / "last.pt") for folder in (straight, stopped))
+    assert same(vars(first), vars(second))
+
+
+def test_whoever_reads_the_folder_meanwhile_finds_whole_files(tmp_path: Path) -> None:
+    seen: list[int] = []
+
+    def look() -> bool:
+        if (tmp_path / "last.pt").exists():
+            seen.append(Checkpoint.read(tmp_path / "last.pt").step)
+            assert read_weights(tmp_path / "last.safetensors").options == TINY
+        return False
+
+    train(InMemory(), None, tmp_path, TINY, replace(QUICK, steps=4, save_minutes=0), look)
+    assert seen == [1, 2, 3]
+
+
+def test_any_number_of_loaders_cuts_the_same_crops_in_the_same_order() -> None:
+    crops = [list(prefetched(StepCrops(InMemory(), replace(QUICK, loaders=count), 16), 3, 6)) for count in (0, 2)]
+    for first, *others in zip(*crops, strict=True):
+        assert all(same(vars(first.truth), vars(each.truth)) for each in others)
+        assert all(same(vars(first.clouds), vars(each.clouds)) for each in others)
+
+
+def test_a_training_starts_from_given_weights(tmp_path: Path) -> None:
+    trained = train(InMemory(), None, tmp_path, TINY, replace(QUICK, steps=3)).averaged_network()
+    training = Training(InMemory(), TINY, QUICK)
+    training.start_from(trained)
+    assert same(dict(training.averaged_network().state_dict()), dict(trained.state_dict()))
+    with pytest.raises(UsageError, match="another network"):
+        training.start_from(network_of(replace(TINY, smoothing=5)))
+
+
 def test_the_loss_falls(tmp_path: Path) -> None:
     from_nothing = replace(TINY, normal_share=0.0)
     train(InMemory(), None, tmp_path, from_nothing, replace(QUICK, steps=60, log_every=10, learning_rate=0.01))
@@ -73,18 +129,16 @@ def test_every_loss_trains(loss: str, tmp_path: Path) -> None:
     assert train(InMemory(), None, tmp_path, TINY, options).step == 2
 
 
-@pytest.mark.parametrize("stem", [True, False])
-def test_half_precision_trains_as_full_does(stem: bool) -> None:
+def test_half_precision_trains_as_full_does() -> None:
     # What a GPU runs, on a CPU.
-    network = replace(TINY, stem=stem)
-    losses = {}
+    parts = {}
     for half in (False, True):
-        training = Training(InMemory(), network, replace(QUICK, steps=4))
+        training = Training(InMemory(), TINY, QUICK)
         training.half = half
-        losses[half] = [training.run_step(training.crop(step))["loss"] for step in range(4)]
+        parts[half] = training.run_step(training.crops[0])
         assert all(value.dtype == torch.float32 for value in training.network.state_dict().values())
-    assert losses[True] != losses[False]
-    assert losses[True] == pytest.approx(losses[False], rel=0.03)
+    assert parts[True] != parts[False]
+    assert parts[True] == pytest.approx(parts[False], rel=0.03)
 
 
 def test_other_options_are_refused_but_for_the_steps(tmp_path: Path) -> None:
@@ -205,7 +259,7 @@ def test_a_thinned_cloud_has_the_density_asked_for() -> None:
 
 
 def test_the_learning_rate_rises_and_falls() -> None:
-    shares = [learning_share(step, 100, 10) for step in range(100)]
+    shares = [learning_share(step, 10, max(step - 10, 0) / 90) for step in range(100)]
     assert shares[0] == pytest.approx(0.1)
     assert max(shares) == shares[10] == 1
     assert shares[-1] < 0.01
