@@ -88,7 +88,7 @@ def command(
     quiet: bool,
     **values: Any,
 ) -> None:
-    """Train a network on DATASET, a folder that `hdpea dataset build` made, into the folder OUT.
+    """Train a network on DATASET, what `hdpea dataset build` or `pack` made, into the folder OUT.
 
     OUT gets last.pt, from which the same command resumes, best.pt with what reconstructed the
     validation clouds best, the averaged weights of both as .safetensors, and metrics.jsonl. Each
@@ -106,12 +106,14 @@ def command(
     from hdpea.dataset.loading import Dataset
     from hdpea.runtime.outputs import check_output
     from hdpea.runtime.pytorch import check_pytorch
+
+    check_pytorch()
     from hdpea.training.journal import LAST
+    from hdpea.training.packed import Packed
     from hdpea.training.stopping import stop_requests
     from hdpea.training.workers import joined_workers
 
-    check_pytorch()
-    datasets = [Dataset(folder) for folder in (dataset, *also)]
+    datasets = [Packed(path) if path.is_file() else Dataset(path) for path in (dataset, *also)]
     judged = Dataset(validation) if validation else None
     out.mkdir(exist_ok=True) if out.parent.is_dir() else None
     check_output(out / LAST, [".pt"])
