@@ -105,8 +105,10 @@ class Packed:
         # Opened again each time, so that it can be read in other processes; nothing but its header is read twice.
         with safe_open(self.path, framework="numpy") as file:
             for each, (low, high) in self._samples[name]["ranges"].items():
-                step = ((np.array(high) - low) / STEPS).astype(np.float32)
-                arrays[each] = file.get_tensor(f"{name}/{each}") * step + np.float32(low)
+                column = file.get_tensor(f"{name}/{each}").astype(np.float32)
+                column *= ((np.array(high) - low) / STEPS).astype(np.float32)
+                column += np.float32(low)
+                arrays[each] = column
         unknown = np.full((1, 3), np.nan, np.float32)
         count = len(arrays["points"])
         return Sample(
