@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from hdpea.embedding import Embedder, embed_surface
+from hdpea.embedding.device import device_choices
 from hdpea.embedding.tangents import tangent_bases
 from hdpea.errors import core_errors_translated
 from hdpea.frontend.cleaning import DroppedPoints, surface_cloud
@@ -218,7 +219,7 @@ def reconstruct(
         If the points are too few, equal, on a line, or hold no triangle.
     UsageError
         If the arrays are not of these shapes, an option is illegal, more vertices are asked for than there are
-        points, a viewpoint is asked for and there is none, or PyTorch is not installed.
+        points, a viewpoint is asked for and there is none, PyTorch is not installed, or has no such device.
     UnreadableInput
         If no point is finite, or the given normals, or their signs, are insisted on and unusable.
     Interrupted
@@ -251,6 +252,7 @@ def reconstruct(
     options = changed(options or Options(), given)
     check_pytorch()
     journal = Journal(options=options)
+    journal.choices += device_choices(options.embedding.device)
     clock = journal.clock
     with limited_threads(options.threads), core_errors_translated():
         cloud = cleaned_cloud(points, normals, sensors, attributes)

@@ -10,6 +10,7 @@ import click
 from click.core import ParameterSource
 
 from hdpea.cli.parameters import PATH, GroupedCommand, GroupedOption, quiet_option, setting_options
+from hdpea.errors import UsageError
 from hdpea.network.options import CONFIGURATIONS
 from hdpea.options.settings import as_dict, filled
 from hdpea.training.options import PRESETS, TrainingOptions
@@ -18,6 +19,7 @@ EPILOG = """\b
 Examples:
   hdpea train dataset/ training/ --validation validation/
   hdpea train dataset/ training/ --steps 100000     # resumes where it was stopped
+  hdpea train dataset/ training/ --preset gpu --minutes 10
   torchrun --nproc-per-node 2 -m hdpea train dataset/ training/ --batch 2
 """
 
@@ -44,6 +46,12 @@ def _use_preset(ctx: click.Context, _: click.Parameter, name: str) -> str:
     help="dataset whose clouds are reconstructed at intervals, to keep the best weights",
 )
 @click.option(
+    "--start",
+    cls=GroupedOption,
+    type=PATH,
+    help="weights to start from (fine-tuning), of the same network and metric; default: random ones",
+)
+@click.option(
     "--network",
     cls=GroupedOption,
     type=click.Choice(list(CONFIGURATIONS)),
@@ -60,7 +68,7 @@ def _use_preset(ctx: click.Context, _: click.Parameter, name: str) -> str:
     is_eager=True,
     expose_value=False,
     callback=_use_preset,
-    help="defaults of the flags below, shown for cpu; paper: as in the HD-PEA paper",
+    help="defaults of the flags below, shown for cpu; gpu: ten minutes of one; paper: as in the HD-PEA paper",
 )
 @click.option("--tensorboard", cls=GroupedOption, is_flag=True, help="also write for TensorBoard, if it is installed")
 @quiet_option
@@ -74,35 +82,42 @@ def command(
     out: Path,
     also: tuple[Path, ...],
     validation: Path | None,
+    start: Path | None,
     network: str,
     tensorboard: bool,
     quiet: bool,
     **values: Any,
 ) -> None:
-    """Train a network on DATASET, a folder that `hdpea dataset build` made, into the folder OUT.
+    """Train a network on DATASET, what `hdpea dataset build` or `pack` made, into the folder OUT.
 
-    OUT gets last.pt, from which the same command resumes, best.pt and best.safetensors with
-    the weights that reconstructed the validation clouds best, and metrics.jsonl. Ctrl-C saves and stops.
+    OUT gets last.pt, from which the same command resumes, best.pt with what reconstructed the
+    validation clouds best, the averaged weights of both as .safetensors, and metrics.jsonl. Each
+    can be read at any moment. Ctrl-C saves and stops.
 
-    best.safetensors is what `hdpea reconstruct --embedding learned --weights` takes.
+    A .safetensors is what `hdpea reconstruct --embedding learned --weights` takes.
     """
-    if ctx.get_parameter_source("steps") is ParameterSource.COMMANDLINE:
-        values["epochs"] = (
-            values["epochs"] if ctx.get_parameter_source("epochs") is ParameterSource.COMMANDLINE else None
-        )
+    lengths = ("steps", "epochs", "minutes")
+    given = [name for name in lengths if ctx.get_parameter_source(name) is ParameterSource.COMMANDLINE]
+    if len(given) > 1:
+        raise UsageError(f"`{given[0]}` and `{given[1]}` exclude each other.", "Give one of them.")
+    if given:  # instead of what the preset says
+        values |= {name: None for name in lengths[1:] if name not in given}
     options = filled(TrainingOptions, values)
     from hdpea.dataset.loading import Dataset
     from hdpea.runtime.outputs import check_output
     from hdpea.runtime.pytorch import check_pytorch
+
+    check_pytorch()
     from hdpea.training.journal import LAST
+    from hdpea.training.packed import Packed
     from hdpea.training.stopping import stop_requests
     from hdpea.training.workers import joined_workers
 
-    check_pytorch()
-    datasets = [Dataset(folder) for folder in (dataset, *also)]
+    datasets = [Packed(path) if path.is_file() else Dataset(path) for path in (dataset, *also)]
     judged = Dataset(validation) if validation else None
     out.mkdir(exist_ok=True) if out.parent.is_dir() else None
     check_output(out / LAST, [".pt"])
+    from hdpea.network.weights import read_weights
     from hdpea.training.joined import Joined
     from hdpea.training.loop import train
 
@@ -110,5 +125,8 @@ def command(
         if not quiet:
             click.echo(line, err=True)
 
-    with joined_workers() as workers, stop_requests() as stopped:
-        train(Joined(datasets), judged, out, CONFIGURATIONS[network], options, stopped, workers, tensorboard, tell)
+    first = read_weights(start) if start else None
+    with joined_workers(options.device) as workers, stop_requests() as stopped:
+        tell(f"device: {workers.device}")
+        samples, shape = Joined(datasets), CONFIGURATIONS[network]
+        train(samples, judged, out, shape, options, stopped, workers, tensorboard, tell, first)

@@ -19,6 +19,7 @@ from hdpea.curvature.options import (
 )
 from hdpea.curvature.tensors import CurvatureTensors, Estimate
 from hdpea.embedding import embed_surface
+from hdpea.embedding.device import device_choices
 from hdpea.errors import core_errors_translated
 from hdpea.frontend.cleaning import surface_cloud
 from hdpea.frontend.roughness import roughness_of
@@ -147,7 +148,10 @@ def _estimate(
         return estimate_from_jets(surface, metric, neighbors), metric
     embedded = embed_surface(surface, vertices, options.embedding, progress)
     tell(progress, "curvature", 0)
-    return estimate_from_embedding(surface, embedded, neighbors), embedded.metric
+    estimate = estimate_from_embedding(surface, embedded, neighbors)
+    if options.embedding.embedding == "learned":
+        estimate = replace(estimate, choices=(*estimate.choices, *device_choices(options.embedding.device)))
+    return estimate, embedded.metric
 
 
 def _in_world(

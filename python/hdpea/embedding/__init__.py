@@ -13,6 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from hdpea.embedding.device import device_choices
 from hdpea.embedding.direct import embed_directly
 from hdpea.embedding.embedded import Embedded
 from hdpea.embedding.learned import embed_learned
@@ -102,7 +103,7 @@ def embed_points(
     CannotReconstruct
         If the points are too few, equal or on a line.
     UsageError
-        If the arrays are not of these shapes, or a viewpoint is asked for and there is none.
+        If the arrays are not of these shapes, a viewpoint is asked for and there is none, or there is no such device.
     UnreadableInput
         If the given normals, or their signs, are insisted on and unusable.
     """
@@ -118,5 +119,7 @@ def embed_points(
         surface = prepared.surface
         embedded = embed_surface(surface, vertices, options.embedding, progress)
     choices = (*prepared.choices, *embedded.choices)
+    if options.embedding.embedding == "learned":
+        choices += device_choices(options.embedding.device)
     notes = (*cloud.notes, *found.notes, *prepared.notes)
     return Embedding(cloud.points, surface.normals, embedded.coordinates, surface.frame, choices, notes)

@@ -14,7 +14,7 @@ from hdpea.geometry.thinning import thinned
 from hdpea.options import EmbeddingOptions
 from hdpea.options.choice import Choice
 from hdpea.runtime.progress import PhaseCallback
-from hdpea.runtime.pytorch import check_pytorch
+from hdpea.runtime.pytorch import check_pytorch, torch_device
 from hdpea.surface.surface import NEIGHBORS, Surface, area_shown
 
 PER_VERTEX = (4.0, 12.0)
@@ -31,7 +31,7 @@ def embed_learned(surface: Surface, vertices: int, options: EmbeddingOptions, pr
     Raises
     ------
     UsageError
-        If PyTorch is not installed.
+        If PyTorch is not installed, or has no such device.
     UnreadableInput
         If the weights cannot be read.
     Interrupted
@@ -44,6 +44,7 @@ def embed_learned(surface: Surface, vertices: int, options: EmbeddingOptions, pr
 
     points, normals, neighbors = surface.points_in_unit, surface.normals, surface.neighbors
     network = read_weights(SHIPPED if options.weights is None else Path(options.weights))
+    network.to(torch_device(options.device))
     least, most = PER_VERTEX
     shown = min(vertices, len(points) / least)
     spacing = float(np.sqrt(area_shown(points, neighbors) / shown))

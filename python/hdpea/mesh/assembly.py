@@ -60,7 +60,7 @@ def assemble_mesh(
     bases
         (n, 2, d) float64: its tangent planes, as ``hdpea.embedding.tangents`` makes them.
     options
-        Those of particles, meshing and refinement count here.
+        Those of particles, meshing and refinement count here, and the device of the embedding.
     progress
         Hears of the phases particles, meshing, refinement, simplification, remeshing and repair.
     clock
@@ -135,6 +135,7 @@ def _mesh_of_particles(
                 count,
                 options=spreading,
                 progress=of_phase(progress, "particles"),
+                device=options.embedding.device,
             )
         with clock.stage("meshing"):
             tell(progress, "meshing", 0)

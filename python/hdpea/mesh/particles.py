@@ -12,9 +12,10 @@ from numpy.typing import NDArray
 from hdpea import _core
 from hdpea.errors import core_errors_translated
 from hdpea.mesh.cells import restricted_cells
-from hdpea.options import ParticleOptions
+from hdpea.options import EmbeddingOptions, ParticleOptions
 from hdpea.options.particles import ITERATIONS
 from hdpea.runtime.progress import PhaseCallback
+from hdpea.runtime.pytorch import torch_device
 
 if TYPE_CHECKING:
     import torch
@@ -64,15 +65,19 @@ class _Cloud:
     """The embedded surface in torch: points, tangent planes, and steps to neighbours."""
 
     def __init__(
-        self, coordinates: NDArray[np.float64], bases: NDArray[np.float64], neighbors: NDArray[np.int64]
+        self,
+        coordinates: NDArray[np.float64],
+        bases: NDArray[np.float64],
+        neighbors: NDArray[np.int64],
+        device: torch.device,
     ) -> None:
         import torch
 
         itself = np.arange(len(coordinates))[:, None]
         strides = np.where(neighbors[:, :STRIDES] < 0, itself, neighbors[:, :STRIDES])
-        self.points = torch.from_numpy(coordinates)  # (n, d)
-        self.bases = torch.from_numpy(bases)  # (n, 2, d)
-        self.strides = torch.from_numpy(np.hstack([itself, strides]))  # (n, 1 + k)
+        self.points = torch.from_numpy(coordinates).to(device)  # (n, d)
+        self.bases = torch.from_numpy(bases).to(device)  # (n, 2, d)
+        self.strides = torch.from_numpy(np.hstack([itself, strides])).to(device)  # (n, 1 + k)
         # A particle leaves its point by no more than this, in R^d and in R^3, lest it walk off an open border
         # or off a fold; the median is no larger where some of the neighbours lie beyond a tear. A point at a
         # border has its neighbours on one side, twice as far: the least reach around it is that of the inside.
@@ -108,6 +113,7 @@ def spread_particles(
     *,
     options: ParticleOptions | None = None,
     progress: PhaseCallback | None = None,
+    device: str = EmbeddingOptions.device,
 ) -> Particles:
     """Spread `count` particles evenly over a surface in R^d.
 
@@ -124,6 +130,8 @@ def spread_particles(
         (n, 2, d) float64, orthonormal.
     neighbors
         (n, k >= 12) int64 along the surface, nearest first, padded with -1.
+    device
+        On which the particles take their steps; their neighbours are found on the CPU.
     """
     import torch
 
@@ -133,21 +141,22 @@ def spread_particles(
         seeds = _core.farthest_point_sampling(coordinates, count, options.seed % len(coordinates))
         cells, _ = restricted_cells(coordinates[seeds], bases[seeds], AREA_DISK_RADIUS)
         squared_width = KERNEL_WIDTH**2 * float(cells.cell_areas.sum()) / count
-        cloud = _Cloud(coordinates, bases, neighbors)
-        nearest = torch.from_numpy(seeds)  # (m,)
+        cloud = _Cloud(coordinates, bases, neighbors, torch_device(device))
+        nearest = torch.from_numpy(seeds).to(cloud.points.device)  # (m,)
         x = cloud.points[nearest]  # (m, d)
         velocity = torch.zeros_like(x)  # (m, d)
         for step in range(iterations):
             if progress is not None and not progress(step / iterations):
                 raise _core.Cancelled("cancelled")
             if step % REFRESH == 0:
-                others = torch.from_numpy(_core.nearest_neighbors(x.numpy(), min(INTERACTIONS, count - 1)))  # (m, k)
+                found = _core.nearest_neighbors(x.cpu().numpy(), min(INTERACTIONS, count - 1))
+                others = torch.from_numpy(found).to(x.device)  # (m, k)
             size = STEP * DECAY ** (step // DECAY_EVERY)
             velocity = MOMENTUM * velocity + size * _force(x, others, squared_width)
             moved, nearest = cloud.project(x + velocity, nearest)
             # What the projection took away must not push on in the next step.
             velocity, x = moved - x, moved
-    return Particles(x.numpy(), nearest.numpy())
+    return Particles(x.cpu().numpy(), nearest.cpu().numpy())
 
 
 def _force(x: torch.Tensor, others: torch.Tensor, squared_width: float) -> torch.Tensor:

@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 
 import numpy as np
@@ -100,10 +102,21 @@ def _embedded(network: PointTransformer, cloud: _Cloud, rounds: int) -> Array:
     clouds = Clouds.of(cloud.points, cloud.normals, cloud.neighbors, network.metric.curvature_radius)
     was_training = network.training
     network.eval()
-    with torch.no_grad():
+    with torch.no_grad(), _same_every_time():
         psi = network(clouds.to(next(network.parameters()).device)).cpu().numpy()
     network.train(was_training)
     return settled(cloud.points, cloud.normals, cloud.neighbors, psi.astype(np.float64), network.metric, rounds)
+
+
+@contextmanager
+def _same_every_time() -> Iterator[None]:
+    """Let a GPU sum in the same order every time; on a CPU, torch does so anyway."""
+    was, warned = torch.are_deterministic_algorithms_enabled(), torch.is_deterministic_algorithms_warn_only_enabled()
+    torch.use_deterministic_algorithms(True, warn_only=True)
+    try:
+        yield
+    finally:
+        torch.use_deterministic_algorithms(was, warn_only=warned)
 
 
 def _in_patches(network: PointTransformer, cloud: _Cloud, rounds: int, progress: PhaseCallback) -> Array:

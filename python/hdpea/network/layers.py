@@ -3,14 +3,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from contextlib import contextmanager
-
 import torch
 from torch import Tensor, nn
 from torch.nn import functional
 
 from hdpea.network.voxels import Voxels
+from hdpea.runtime.threads import fixed_order
 
 
 def rows(values: Tensor, index: Tensor) -> Tensor:
@@ -18,27 +16,12 @@ def rows(values: Tensor, index: Tensor) -> Tensor:
     return functional.embedding(index, values)
 
 
-FEW_ROWS = 64
-"""Matrix products of fewer rows are computed by one thread."""
+def full_precision(like: Tensor) -> torch.autocast:
+    """Return a context that computes in float32 even within autocast, on the device of `like`.
 
-
-@contextmanager
-def fixed_order(rows: int, columns: int) -> Iterator[None]:
-    """Compute small matrix products by one thread, so that the number of threads changes no bit of the result.
-
-    For few rows, and for a single column, the BLAS splits the work such that sums run in another order for another
-    number of threads. Larger products are split by rows, each of which is summed in one order. The small ones would
-    gain nothing from more threads.
+    Least squares, and psi itself, which is compared between neighbours, need more than the 8 bits of bfloat16.
     """
-    threads = torch.get_num_threads()
-    if threads == 1 or (rows >= FEW_ROWS and columns > 1):
-        yield
-        return
-    torch.set_num_threads(1)
-    try:
-        yield
-    finally:
-        torch.set_num_threads(threads)
+    return torch.autocast(like.device.type, enabled=False)
 
 
 class Linear(nn.Linear):
@@ -66,7 +49,8 @@ class SparseConvolution(nn.Module):
         for part, weight in zip(torch.split(rows(x, sources), counts), self.weight, strict=True):
             with fixed_order(len(part), weight.shape[1]):
                 moved.append(part @ weight)
-        return torch.zeros_like(x).index_add(0, targets, torch.cat(moved))  # moved: (pairs, c)
+        # Under autocast products have 16 bits, which are too few for sums.
+        return torch.zeros_like(x, dtype=torch.float32).index_add(0, targets, torch.cat(moved).float())
 
 
 class PatchAttention(nn.Module):

@@ -10,7 +10,7 @@ from hdpea.geometry.metric import ScaledMetric
 from hdpea.network.averaging import Neighborhoods, averaged
 from hdpea.network.clouds import Clouds
 from hdpea.network.curves import CURVES
-from hdpea.network.layers import Block, Linear, rows
+from hdpea.network.layers import Block, Linear, full_precision, rows
 from hdpea.network.options import NetworkOptions
 from hdpea.network.stem import EdgeStem
 from hdpea.network.voxels import MIDDLE, Voxels
@@ -83,13 +83,19 @@ class PointTransformer(nn.Module):
 
     def forward(self, clouds: Clouds) -> Tensor:
         """Return psi (n, 5) float32 of the points, in spacings."""
-        voxels, index, features = self._points(clouds)
+        with full_precision(clouds.points):
+            voxels, index, features = self._points(clouds)
         x = self._unet(_pooled(self.enter(features), index, len(voxels.cells)), voxels)
-        # psi varies as much within a voxel as between voxels: each predicts an affine map, and points correct it.
-        maps = rows(self.affine(x), index).view(-1, OUTPUTS, 4)
-        offsets = nn.functional.pad(features[:, :3], (0, 1), value=1)  # (n, 4)
-        x = self.leave(torch.cat([rows(x, index), features], dim=1))
-        psi: Tensor = PSI_STEP * (self.psi(x) + (maps @ offsets[:, :, None])[:, :, 0])  # (n, 5)
+        left = self.leave(torch.cat([rows(x, index), features], dim=1))
+        with full_precision(features):
+            # psi varies as much within a voxel as between voxels: each predicts an affine map, and points correct it.
+            maps = rows(self.affine(x.float()), index).view(-1, OUTPUTS, 4)
+            offsets = nn.functional.pad(features[:, :3], (0, 1), value=1)  # (n, 4)
+            psi = PSI_STEP * (self.psi(left.float()) + (maps @ offsets[:, :, None])[:, :, 0])  # (n, 5)
+            return self._smooth(psi, left.float(), clouds)
+
+    def _smooth(self, psi: Tensor, x: Tensor, clouds: Clouds) -> Tensor:
+        """Add the normals to psi (n, 5), as much of them as the features x (n, c) say, and average over neighbours."""
         around = Neighborhoods.of(clouds.points, clouds.normals, clouds.neighbors[:, : self.options.neighbors])
         averaging = around.averaging()
         share = self.options.normal_share
@@ -156,5 +162,5 @@ def _mapped(inputs: int, outputs: int) -> nn.Sequential:
 
 def _pooled(x: Tensor, index: Tensor, count: int) -> Tensor:
     """Return the mean (count, c) of the features (n, c) in each voxel."""
-    sums = torch.zeros(count, x.shape[1], dtype=x.dtype, device=x.device).index_add(0, index, x)
+    sums = torch.zeros(count, x.shape[1], device=x.device).index_add(0, index, x.float())
     return sums / torch.bincount(index, minlength=count)[:, None]

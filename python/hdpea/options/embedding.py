@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 from hdpea.errors import UsageError
 from hdpea.options.checked import Checked, option
+from hdpea.options.device import check_device, device_option
 from hdpea.options.lengths import Length
 
 BENDING_LENGTH = 0.6
@@ -32,6 +33,7 @@ class EmbeddingOptions(Checked):
     whole_points: int = option(
         80_000, "learned: clouds of more points are embedded in patches that are joined (PMEI)", minimum=1
     )
+    device: str = device_option("the network and the particles are computed")
     curvature_radius: Length | None = option(
         None,
         "direct: radius in which curvature is measured, as 0.02 or 1%; default: from the number of vertices that the "
@@ -47,6 +49,7 @@ class EmbeddingOptions(Checked):
 
     def __post_init__(self) -> None:
         super().__post_init__()
+        check_device(self.device)
         if self.weights is not None and self.embedding != "learned":
             raise UsageError(
                 f"The {self.embedding} embedding has no use for weights.", "Give `embedding='learned'` as well."

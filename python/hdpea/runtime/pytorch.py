@@ -1,11 +1,19 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Whether PyTorch is there: which of its builds fits the machine is the user's choice, so pip does not bring it."""
+"""Whether PyTorch is there, and on what it computes.
+
+Which of its builds fits the machine is the user's choice, so pip does not bring it.
+"""
 
 from __future__ import annotations
 
+import os
 from importlib.util import find_spec
+from typing import TYPE_CHECKING
 
 from hdpea.errors import UsageError
+
+if TYPE_CHECKING:
+    import torch
 
 
 def has_pytorch() -> bool:
@@ -27,3 +35,28 @@ def check_pytorch() -> None:
             "The small build, for any processor: pip install torch --index-url https://download.pytorch.org/whl/cpu. "
             "The usual one, on Linux with CUDA and several GB large: pip install 'hdpea[torch]'.",
         )
+
+
+def torch_device(name: str) -> torch.device:
+    """Return the device of a name: ``auto``, ``cpu``, ``cuda`` or ``cuda:n``; auto is the first GPU, if there is any.
+
+    Raises
+    ------
+    UsageError
+        If PyTorch, as it is installed, finds no such GPU.
+    """
+    import torch
+
+    gpus = torch.cuda.device_count() if torch.cuda.is_available() else 0
+    if name == "cpu" or (name == "auto" and not gpus):
+        return torch.device("cpu")
+    number = int(name.partition(":")[2] or 0)
+    if number >= gpus:
+        found = "no GPU" if not gpus else f"only {gpus} GPU{'s' * (gpus > 1)}, numbered from 0"
+        raise UsageError(
+            f"There is no device {name}: PyTorch {torch.__version__} finds {found}.",
+            "`device='cpu'` works everywhere; a GPU needs its driver and a build of PyTorch for CUDA.",
+        )
+    # Without it, products on a GPU may be summed in another order the next time.
+    os.environ.setdefault("CUBLAS_WORKSPACE_CONFIG", ":4096:8")
+    return torch.device("cuda", number)

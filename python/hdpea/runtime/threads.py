@@ -13,9 +13,16 @@ from hdpea.runtime.pytorch import has_pytorch
 # fifty times slower. Read by OpenMP once, when torch is imported.
 os.environ.setdefault("OMP_WAIT_POLICY", "PASSIVE")
 
+# torch's BLAS on Intel's and AMD's processors, MKL, otherwise sums in an order that depends on the number of threads;
+# on AVX2 for nearly every matrix. In its strict mode it does not, at the same speed. Read at the first product.
+os.environ.setdefault("MKL_CBWR", "AUTO,STRICT")
+
 
 MOST_THREADS = max(64, os.cpu_count() or 1)
 """More are of no use, and each takes memory even while it waits."""
+
+FEW_ROWS = 64
+"""Matrix products of fewer rows are computed by one thread."""
 
 
 @contextmanager
@@ -46,3 +53,24 @@ def _limited_torch(count: int) -> Iterator[None]:
         yield
     finally:
         torch.set_num_threads(before)
+
+
+@contextmanager
+def fixed_order(rows: int, columns: int) -> Iterator[None]:
+    """Compute small matrix products by one thread, so that the number of threads changes no bit of the result.
+
+    For few rows, and for a single column, a BLAS without a strict mode, such as OpenBLAS, splits the work such that
+    sums run in another order for another number of threads. Larger products are split by rows, each of which is summed
+    in one order. The small ones would gain nothing from more threads. MKL has one (see above).
+    """
+    import torch
+
+    threads = torch.get_num_threads()
+    if threads == 1 or (rows >= FEW_ROWS and columns > 1):
+        yield
+        return
+    torch.set_num_threads(1)
+    try:
+        yield
+    finally:
+        torch.set_num_threads(threads)

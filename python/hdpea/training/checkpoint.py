@@ -45,6 +45,8 @@ class Checkpoint:
         The optimizer's state.
     best
         The best score of a validation so far; None before the first.
+    seconds
+        Spent so far, if its length is in minutes.
     """
 
     network: NetworkOptions
@@ -55,6 +57,7 @@ class Checkpoint:
     averaged: dict[str, Tensor]
     optimizer: dict[str, Any]
     best: float | None = None
+    seconds: float = 0.0
 
     def write(self, path: Path) -> None:
         """Write the checkpoint, whole or not at all."""
@@ -93,10 +96,11 @@ class Checkpoint:
                 f"{path} is a checkpoint of format {content['format']}, not {FORMAT}.", "Another version wrote it."
             )
         try:
-            rest = {each.name: content[each.name] for each in fields(cls) if each.name != "metric"}
+            rest = {each.name: content[each.name] for each in fields(cls) if each.name not in {"metric", "seconds"}}
             rest |= {
                 "network": NetworkOptions.of_record(rest["network"]),
                 "training": _training_options(rest["training"]),
+                "seconds": float(content.get("seconds", 0.0)),
                 "metric": ScaledMetric.of_record(content["metric"]) if "metric" in content else UNRECORDED_METRIC,
             }
             for state in (rest["weights"], rest["averaged"]):

@@ -16,8 +16,11 @@ from hdpea.training.crops import Samples
 from hdpea.training.steps import Training
 from hdpea.training.validation import validate
 
-LAST, BEST, WEIGHTS, METRICS = "last.pt", "best.pt", "best.safetensors", "metrics.jsonl"
-"""File names: checkpoint to resume from, checkpoint of the best validation, its weights, metrics."""
+LAST, LAST_WEIGHTS, METRICS = "last.pt", "last.safetensors", "metrics.jsonl"
+"""File names: checkpoint to resume from, its averaged weights, metrics."""
+
+BEST, WEIGHTS = "best.pt", "best.safetensors"
+"""File names: checkpoint of the best validation, its averaged weights."""
 
 
 class Journal:
@@ -58,15 +61,20 @@ class Journal:
             self._write({f"validation_{name}": value for name, value in scores.items()})
             if training.best is None or scores["score"] > training.best:
                 training.best = scores["score"]
-                self.save(BEST)
-                facts = {"step": str(training.step)} | {name: f"{value:.4g}" for name, value in scores.items()}
-                write_weights(self.out / WEIGHTS, training.averaged_network(), facts)
+                facts = {name: f"{value:.4g}" for name, value in scores.items()}
+                self.save(BEST, WEIGHTS, facts)
         self._since += time.monotonic() - started
 
-    def save(self, name: str) -> None:
-        """Write a checkpoint."""
+    def save(self, name: str = LAST, weights: str = LAST_WEIGHTS, facts: Mapping[str, str] | None = None) -> None:
+        """Write a checkpoint and its averaged weights; whoever reads them meanwhile finds those before, whole."""
         if self.writes:
             self.training.checkpoint().write(self.out / name)
+            known = {"step": str(self.training.step)} | dict(facts or {})
+            write_weights(self.out / weights, self.training.averaged_network(), known)
+
+    def _length(self) -> str:
+        training, minutes = self.training, self.training.options.minutes
+        return f" of {training.steps}" if minutes is None else f", {training.seconds / 60:.1f} of {minutes:g} minutes"
 
     def _write(self, numbers: Mapping[str, float]) -> None:
         if not self.writes:
@@ -74,7 +82,7 @@ class Journal:
         with (self.out / METRICS).open("a") as file:
             file.write(json.dumps({"step": self.training.step} | dict(numbers)) + "\n")
         listed = "  ".join(f"{name} {value:.4g}" for name, value in numbers.items())
-        self.tell(f"step {self.training.step} of {self.training.steps}: {listed}")
+        self.tell(f"step {self.training.step}{self._length()}: {listed}")
         if self._board is not None:
             for name, value in numbers.items():
                 self._board.add_scalar(name, value, self.training.step)

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 from hdpea.errors import UsageError
 from hdpea.options import Checked, option
+from hdpea.options.device import check_device, device_option
 
 LOSSES = ("local", "ndhde-mae", "ndhde-mse", "point-mse", "point-mae")
 
@@ -65,6 +66,9 @@ class TrainingOptions(Checked):
 
     steps: int = option(60_000, "total optimizer steps; the learning rate falls over them as a cosine", minimum=1)
     epochs: int | None = option(None, "passes over the dataset, instead of steps", minimum=1)
+    minutes: float | None = option(
+        None, "minutes to train, instead of steps; the learning rate falls by the clock", minimum=0
+    )
     batch: int = option(1, "crops per step", minimum=1)
     learning_rate: float = option(2e-3, "highest learning rate of AdamW", minimum=0)
     attention_rate: float = option(2e-3, "highest learning rate of the attention modules", minimum=0)
@@ -78,14 +82,28 @@ class TrainingOptions(Checked):
     validation_clouds: int = option(4, "validation clouds to reconstruct", minimum=0)
     validation_vertices: int = option(5_180, "vertices of these reconstructions", minimum=4)
     threads: int = option(1, "threads of torch", minimum=1)
+    loaders: int = option(
+        0, "processes that cut crops, the same for any number; 0: a thread of the training's own", minimum=0
+    )
+    device: str = device_option("the network is trained")
     seed: int = option(0, "seed of the crops and of the order of the clouds", minimum=0)
     crops: CropOptions = CropOptions()
     loss: LossOptions = LossOptions()
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        check_device(self.device)
+        if self.epochs is not None and self.minutes is not None:
+            raise UsageError("`epochs` and `minutes` exclude each other.", "Give one of them.")
 
 
 PRESETS: dict[str, TrainingOptions] = {
     # For two cores and a few hours: one crop per step.
     "cpu": TrainingOptions(),
+    # For a GPU that is paid by the minute. Of 16 cores, eight cut more crops than it takes.
+    "gpu": TrainingOptions(
+        minutes=10, batch=24, learning_rate=3e-3, attention_rate=3e-3, save_minutes=1, validate_every=10**6, loaders=8
+    ),
     # HD-PEA paper, appendix E and F: whole clouds of 40,000 points, ten transforms, the distance loss alone.
     "paper": TrainingOptions(
         epochs=5_000,

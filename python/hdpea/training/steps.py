@@ -13,11 +13,19 @@ from hdpea.errors import UsageError
 from hdpea.network.layers import PatchAttention
 from hdpea.network.options import NetworkOptions
 from hdpea.network.transformer import PointTransformer
+from hdpea.runtime.pytorch import torch_device
 from hdpea.training.checkpoint import Checkpoint
-from hdpea.training.crops import Crop, Samples, crop_number
+from hdpea.training.crops import Crop, Samples
+from hdpea.training.loaders import StepCrops
 from hdpea.training.losses import FIT_NEIGHBORS, loss_parts
 from hdpea.training.options import TrainingOptions
 from hdpea.training.workers import Workers
+
+ENDLESS = 10**9
+"""Steps of a training that ends by the clock: more than it will ever do."""
+
+CHANGEABLE = ("steps", "epochs", "minutes", "save_minutes", "loaders", "device")
+"""What may differ when a training is resumed: how long it is, and what only the machine decides."""
 
 
 class Training:
@@ -26,10 +34,17 @@ class Training:
     best: float | None = None
     """The best score of a validation so far."""
 
+    half: bool
+    """Whether the layers compute in bfloat16: a GPU is faster then, a CPU slower. Losses and fits are in float32."""
+
+    seconds: float = 0.0
+    """Spent on it so far, where its length is in minutes; those of earlier runs included."""
+
     def __init__(
         self, samples: Samples, network: NetworkOptions, options: TrainingOptions, workers: Workers | None = None
     ) -> None:
-        self.samples, self.options, self.workers, self.step = samples, options, workers or Workers(), 0
+        self.options, self.step = options, 0
+        self.workers = workers or Workers(device=torch_device(options.device))
         if not samples.names:
             raise UsageError("There is nothing to train on: the dataset has no samples.")
         if options.batch % self.workers.count:
@@ -45,10 +60,38 @@ class Training:
         )
         per_epoch = math.ceil(len(samples.names) / options.batch)
         self.steps = options.steps if options.epochs is None else options.epochs * per_epoch
-        self.neighbors = max(network.neighbors, options.loss.distance_neighbors, FIT_NEIGHBORS)
+        self.half = self.workers.device.type == "cuda"
+        if options.minutes is not None:
+            self.steps = ENDLESS
+        neighbors = max(network.neighbors, options.loss.distance_neighbors, FIT_NEIGHBORS)
+        self.crops = StepCrops(samples, options, neighbors, self.workers.rank, self.workers.count)
+
+    @property
+    def done(self) -> float:
+        """The share of the training that is done, after the warm-up; 1 at its end."""
+        if self.options.minutes is not None:
+            return min(self.seconds / max(60 * self.options.minutes, 1e-9), 1.0)
+        warm_up = min(self.options.warm_up, self.steps - 1)
+        return max(self.step - warm_up, 0) / (self.steps - warm_up)
+
+    def start_from(self, network: PointTransformer) -> None:
+        """Take over the weights of a trained network, in place of random ones.
+
+        Raises
+        ------
+        UsageError
+            If it has another shape, or was trained on another metric.
+        """
+        if network.options != self.network.options or network.metric != self.metric:
+            raise UsageError(
+                "The weights to start from are of another network or another metric.",
+                "Those of the training are the options of the network and of the dataset.",
+            )
+        self.network.load_state_dict(network.state_dict())
+        self.averaged = {name: value.clone() for name, value in self.network.state_dict().items()}
 
     def resume(self, checkpoint: Checkpoint) -> None:
-        """Resume from a checkpoint of the same options; only the number of steps may differ.
+        """Resume from a checkpoint of the same options; only its length and what it runs on may differ.
 
         Raises
         ------
@@ -60,40 +103,42 @@ class Training:
                 "The checkpoint was trained on samples of another metric.",
                 "Use a dataset that was built with the same ground truth, or another folder.",
             )
-        same_length = replace(checkpoint.training, steps=self.options.steps, epochs=self.options.epochs)
-        if checkpoint.network != self.network.options or same_length != self.options:
+        as_now = replace(checkpoint.training, **{name: getattr(self.options, name) for name in CHANGEABLE})
+        if checkpoint.network != self.network.options or as_now != self.options:
             raise UsageError(
-                "The checkpoint was made with other options.", "Use those, or another folder; only `steps` may change."
+                "The checkpoint was made with other options.",
+                f"Use those, or another folder; only {', '.join(f'`{name}`' for name in CHANGEABLE)} may change.",
             )
         self.network.load_state_dict(checkpoint.weights)
         for name, value in self.averaged.items():
             value.copy_(checkpoint.averaged[name])
         self.optimizer.load_state_dict(checkpoint.optimizer)
-        self.step, self.best = checkpoint.step, checkpoint.best
+        self.step, self.best, self.seconds = checkpoint.step, checkpoint.best, checkpoint.seconds
 
     def checkpoint(self) -> Checkpoint:
         """Return the state, to be written at once, since it is not copied."""
         weights, optimizer = self.network.state_dict(), self.optimizer.state_dict()
         return Checkpoint(
-            self.network.options, self.options, self.metric, self.step, weights, self.averaged, optimizer, self.best
+            self.network.options,
+            self.options,
+            self.metric,
+            self.step,
+            weights,
+            self.averaged,
+            optimizer,
+            self.best,
+            self.seconds,
         )
-
-    def crop(self, step: int) -> Crop:
-        """Return this process's crops of a step."""
-        options = self.options
-        numbers = range(step * options.batch + self.workers.rank, (step + 1) * options.batch, self.workers.count)
-        cut = [crop_number(number, self.samples, options.crops, self.neighbors, options.seed) for number in numbers]
-        return Crop.together(cut)
 
     def run_step(self, crop: Crop) -> dict[str, float]:
         """Train on one batch; return the terms of its loss."""
         options = self.options
         torch.manual_seed(options.seed * 1_000_003 + self.step)  # for the curves' order
-        share = learning_share(self.step, self.steps, options.warm_up)
+        share = learning_share(self.step, options.warm_up, self.done)
         for group in self.optimizer.param_groups:
             group["lr"] = group["full_rate"] * share
         crop = crop.to(self.workers.device)
-        with torch.autocast(self.workers.device.type, torch.bfloat16, enabled=self.workers.device.type == "cuda"):
+        with torch.autocast(self.workers.device.type, torch.bfloat16, enabled=self.half):
             psi = self.shared(crop.clouds)
         parts = loss_parts(psi.float(), crop.truth, options.loss)
         self.optimizer.zero_grad()
@@ -117,11 +162,9 @@ class Training:
         return self.checkpoint().build()
 
 
-def learning_share(step: int, steps: int, warm_up: int) -> float:
-    """Return the share of the full learning rate: linear warm-up, then a cosine down to 0."""
-    if step < warm_up:
-        return (step + 1) / warm_up
-    return (1 + math.cos(math.pi * (step - warm_up) / max(steps - warm_up, 1))) / 2
+def learning_share(step: int, warm_up: int, done: float) -> float:
+    """Return the share of the full learning rate: linear warm-up, then a cosine down to 0 where all is `done`."""
+    return min((step + 1) / max(warm_up, 1), 1.0) * (1 + math.cos(math.pi * done)) / 2
 
 
 def _groups(network: PointTransformer, options: TrainingOptions) -> list[dict[str, object]]:

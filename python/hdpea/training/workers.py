@@ -6,10 +6,13 @@ from __future__ import annotations
 import os
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import torch
 from torch import distributed, nn
+
+from hdpea.runtime.pytorch import torch_device
+from hdpea.training.options import TrainingOptions
 
 
 @dataclass(frozen=True)
@@ -18,13 +21,7 @@ class Workers:
 
     rank: int = 0
     count: int = 1
-
-    @property
-    def device(self) -> torch.device:
-        """The device on which this process computes."""
-        if not torch.cuda.is_available():
-            return torch.device("cpu")
-        return torch.device("cuda", int(os.environ.get("LOCAL_RANK", "0")))
+    device: torch.device = field(default_factory=lambda: torch.device("cpu"))
 
     def share(self, network: nn.Module) -> nn.Module:
         """Wrap the network so that gradients are averaged over all processes."""
@@ -40,14 +37,22 @@ class Workers:
 
 
 @contextmanager
-def joined_workers() -> Iterator[Workers]:
-    """Join the processes started by ``torchrun``, if any."""
-    count = int(os.environ.get("WORLD_SIZE", "1"))
+def joined_workers(device: str = TrainingOptions.device) -> Iterator[Workers]:
+    """Join the processes started by ``torchrun``, if any; each takes a GPU of its own, unless `device` is another.
+
+    Raises
+    ------
+    UsageError
+        If there is no such device.
+    """
+    own, count = torch_device(device), int(os.environ.get("WORLD_SIZE", "1"))
     if count == 1:
-        yield Workers()
+        yield Workers(device=own)
         return
-    distributed.init_process_group("nccl" if torch.cuda.is_available() else "gloo")
+    if own.type == "cuda":
+        own = torch_device(f"cuda:{os.environ.get('LOCAL_RANK', '0')}")
+    distributed.init_process_group("nccl" if own.type == "cuda" else "gloo")
     try:
-        yield Workers(distributed.get_rank(), count)
+        yield Workers(distributed.get_rank(), count, own)
     finally:
         distributed.destroy_process_group()

@@ -27,7 +27,7 @@ struct Adaptor {
   }
 };
 
-/// The k best by (distance, index): nanoflann's own set breaks ties by the order of its tree.
+/// The k best by (distance, index), in order: nanoflann's own set breaks ties by the order of its tree.
 class NearestSet {
  public:
   using DistanceType = double;
@@ -38,47 +38,61 @@ class NearestSet {
   /// A little more than the k-th distance, since nanoflann passes on only what is strictly less.
   double worstDist() const {
     constexpr double infinity = std::numeric_limits<double>::infinity();
-    return full() ? std::nextafter(best_.front().first, infinity) : std::numeric_limits<double>::max();
+    return full() ? std::nextafter(best_.back().first, infinity) : std::numeric_limits<double>::max();
   }
   bool addPoint(double distance, Index index) {
     const Candidate candidate{distance, index};
-    if (full() && candidate >= best_.front()) return true;
+    if (full()) {
+      if (candidate >= best_.back()) return true;
+      best_.pop_back();
+    }
+    // From the end on: for the few dozens that are asked for, a heap is half as fast.
+    std::size_t place = best_.size();
     best_.push_back(candidate);
-    std::push_heap(best_.begin(), best_.end());
-    if (best_.size() <= k_) return true;
-    std::pop_heap(best_.begin(), best_.end());
-    best_.pop_back();
+    for (; place > 0 && best_[place - 1] > candidate; --place) best_[place] = best_[place - 1];
+    best_[place] = candidate;
     return true;
   }
-  /// What nanoflann calls at the end of a search from 1.5 on; sorted() is enough.
+  /// What nanoflann calls at the end of a search from 1.5 on; they are in order.
   void sort() {}
-  /// The candidates from the best on; no more can be added then.
-  const std::vector<Candidate>& sorted() {
-    std::sort_heap(best_.begin(), best_.end());
-    return best_;
-  }
+  const std::vector<Candidate>& sorted() const { return best_; }
 
  private:
   std::size_t k_;
-  std::vector<Candidate> best_;  // a heap, the worst in front
+  std::vector<Candidate> best_;
 };
 
-using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Adaptor<double, Adaptor>, Adaptor, -1, Index>;
+/// A tree in as many dimensions, or, if that is -1, in as many as it is told.
+template <int dimensions>
+using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Adaptor<double, Adaptor>, Adaptor, dimensions, Index>;
 
 /// The row's k nearest of `count` points, leaving out `excluded` (-1: nothing is left out).
-template <class Row>
-void search(const Tree& tree, Index count, const double* query, Index excluded, Row row) {
-  thread_local std::vector<Index> found;
+template <class AnyTree, class Row>
+void search(const AnyTree& tree, Index count, const double* query, Index excluded, Row row) {
   const Index wanted = std::min<Index>(row.size(), count);
   NearestSet nearest(static_cast<std::size_t>(wanted) + (excluded >= 0 ? 1 : 0));
   tree.findNeighbors(nearest, query, {});  // options, whose type has another name from nanoflann 1.5 on
-  found.clear();
-  for (const auto& [distance, index] : nearest.sorted()) {
-    if (index != excluded) found.push_back(index);
-  }
   row.setConstant(-1);
-  const Index filled = std::min<Index>(row.size(), static_cast<Index>(found.size()));
-  for (Index i = 0; i < filled; ++i) row(i) = found[i];
+  Index filled = 0;
+  for (const auto& [distance, index] : nearest.sorted()) {
+    if (index != excluded && filled < row.size()) row(filled++) = index;
+  }
+}
+
+/// Builds a tree of points and hands it to `use`; of known dimensions in the two spaces that surfaces lie in.
+template <class Use>
+void with_tree(const CoordinatesRef& points, const Use& use) {
+  const Adaptor adaptor{points};
+  const int dimensions = static_cast<int>(points.cols());
+  const nanoflann::KDTreeSingleIndexAdaptorParams leaves(16);
+  switch (dimensions) {
+    case 3:
+      return use(Tree<3>(dimensions, adaptor, leaves));
+    case 8:
+      return use(Tree<8>(dimensions, adaptor, leaves));
+    default:
+      return use(Tree<-1>(dimensions, adaptor, leaves));
+  }
 }
 
 void check(const CoordinatesRef& points, Index k) {
@@ -93,20 +107,21 @@ Neighbors nearest_neighbors(const CoordinatesRef& points, const CoordinatesRef& 
   check(points, k);
   require(points.cols() == queries.cols(), "points and queries must have the same dimension");
   require_finite(queries, "queries");
-  const Adaptor adaptor{points};
-  const Tree tree(static_cast<int>(points.cols()), adaptor);
   Neighbors neighbors(queries.rows(), k);
-  parallel_for(queries.rows(),
-               [&](Index i) { search(tree, points.rows(), queries.row(i).data(), -1, neighbors.row(i)); });
+  with_tree(points, [&](const auto& tree) {
+    parallel_for(queries.rows(),
+                 [&](Index i) { search(tree, points.rows(), queries.row(i).data(), -1, neighbors.row(i)); });
+  });
   return neighbors;
 }
 
 Neighbors nearest_neighbors(const CoordinatesRef& points, Index k) {
   check(points, k);
-  const Adaptor adaptor{points};
-  const Tree tree(static_cast<int>(points.cols()), adaptor);
   Neighbors neighbors(points.rows(), k);
-  parallel_for(points.rows(), [&](Index i) { search(tree, points.rows(), points.row(i).data(), i, neighbors.row(i)); });
+  with_tree(points, [&](const auto& tree) {
+    parallel_for(points.rows(),
+                 [&](Index i) { search(tree, points.rows(), points.row(i).data(), i, neighbors.row(i)); });
+  });
   return neighbors;
 }
 

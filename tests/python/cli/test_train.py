@@ -41,6 +41,14 @@ def test_a_training_starts_and_goes_on(dataset: str, tmp_path: Path) -> None:
     assert [line["step"] for line in lines] == [1, 2]
 
 
+def test_a_dataset_is_packed_once_and_trained_on(dataset: str, tmp_path: Path) -> None:
+    packed, out = str(tmp_path / "packed.safetensors"), tmp_path / "out"
+    assert [run(["dataset", "pack", dataset, packed]) for _ in range(2)] == [0, 2]
+    assert run(["train", packed, str(out), "--steps", "1", *SMALL]) == 0
+    first = ["--start", str(out / "last.safetensors")]
+    assert run(["train", dataset, str(tmp_path / "more"), "--steps", "1", *first, *SMALL]) == 0
+
+
 def test_flags_win_over_the_preset(dataset: str, tmp_path: Path) -> None:
     out = tmp_path / "out"
     assert run(["train", dataset, str(out), "--preset", "paper", "--steps", "1", "--batch", "1", *SMALL]) == 0
@@ -56,6 +64,8 @@ def test_flags_win_over_the_preset(dataset: str, tmp_path: Path) -> None:
         (2, ["--loss", "none"]),
         (2, ["--least-points", "9000", "--most-points", "8000"]),
         (2, ["--margin", "1"]),
+        (2, ["--minutes", "1", "--steps", "5"]),
+        (2, ["--device", "cuda:99"]),
         (3, ["--validation", "missing"]),
     ],
 )

@@ -14,6 +14,7 @@ from helpers.networks import SPACING, TINY, cloud_of, neighbors_of, network_of, 
 from hdpea.errors import UsageError
 from hdpea.network.clouds import Clouds, moved_together, shape_operators
 from hdpea.network.inference import predict_psi
+from hdpea.network.layers import Linear
 from hdpea.network.options import CONFIGURATIONS, NetworkOptions
 from hdpea.network.transformer import PointTransformer
 from hdpea.network.voxels import CELLS, Voxels
@@ -47,6 +48,19 @@ def test_the_number_of_threads_does_not_matter_to_the_last_bit(network: PointTra
     finally:
         torch.set_num_threads(before)
     assert all(np.array_equal(results[0], each) for each in results[1:])
+
+
+def test_the_number_of_threads_changes_no_product() -> None:
+    rows, layer, before = 130, Linear(384, 192), torch.get_num_threads()
+    x = torch.randn(rows, 384, generator=torch.Generator().manual_seed(0))
+    try:
+        results = []
+        for threads in (1, 2, 3, 8):
+            torch.set_num_threads(threads)
+            results.append([layer(x[:count]) for count in range(1, rows, 3)])
+    finally:
+        torch.set_num_threads(before)
+    assert all(torch.equal(*pair) for each in results[1:] for pair in zip(results[0], each, strict=True))
 
 
 def test_the_order_within_the_network_matters_to_rounding_alone(network: PointTransformer) -> None:

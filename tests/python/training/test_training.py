@@ -18,13 +18,15 @@ from helpers.networks import METRIC, QUICK, SPACING, TINY, InMemory, network_of,
 
 from hdpea.errors import Interrupted, UnreadableInput, UsageError
 from hdpea.geometry.unit_frame import UnitFrame
-from hdpea.network.weights import UNRECORDED_METRIC, read_weights
+from hdpea.network.weights import UNRECORDED_METRIC, read_weights, write_weights
 from hdpea.surface.surface import Surface
 from hdpea.training.checkpoint import FORMAT, Checkpoint
 from hdpea.training.crops import crop_number, cut_crop
 from hdpea.training.joined import Joined
+from hdpea.training.loaders import StepCrops, prefetched
 from hdpea.training.loop import train
 from hdpea.training.options import PRESETS, CropOptions, LossOptions, TrainingOptions
+from hdpea.training.packed import Packed, write_packed
 from hdpea.training.steps import Training, learning_share
 from hdpea.training.stopping import stop_requests
 from hdpea.training.validation import mesh_of_embedding, metric_quality, validate
@@ -59,6 +61,90 @@ def test_a_training_that_was_stopped_ends_as_one_that_was_not(tmp_path: Path) ->
     assert same(vars(first), vars(second))
 
 
+def test_packed_samples_are_those_packed_to_sixteen_bits(tmp_path: Path) -> None:
+    noisy = torus_sample(300)
+    noisy = replace(noisy, points=noisy.points + np.float32(0.01), estimated_normals=-noisy.normals)
+    samples = InMemory({"clean": torus_sample(400), "noisy": noisy})
+    write_packed(tmp_path / "packed.safetensors", samples)
+    packed = Packed(tmp_path / "packed.safetensors")
+    assert (packed.names, packed.metric, packed.spacing("noisy")) == (samples.names, METRIC, SPACING)
+    for name in samples.names:
+        given, read = samples.read(name), packed.read(name)
+        order = np.argmin(np.linalg.norm(given.points[:, None] - read.points, axis=2), axis=0)
+        assert sorted(order) == list(range(len(given.points)))
+        for column in ("points", "surface_points", "normals", "psi"):
+            np.testing.assert_allclose(getattr(read, column), getattr(given, column)[order], atol=2e-5)
+    assert packed.read("clean").estimated_normals is None
+    np.testing.assert_allclose(read.estimated_normals, -read.normals, atol=4e-5)
+    assert train(packed, None, tmp_path, TINY, replace(QUICK, steps=1)).step == 1
+
+
+def test_what_is_not_packed_is_refused(tmp_path: Path) -> None:
+    path = tmp_path / "packed.safetensors"
+    write_weights(path, network_of())
+    with pytest.raises(UnreadableInput, match="no packed samples"):
+        Packed(path)
+    write_packed(path, InMemory())
+    path.write_bytes(path.read_bytes()[:500])
+    with pytest.raises(UnreadableInput, match="Cannot read"):
+        Packed(path)
+
+
+class Clock:
+    """Tells a second more each time."""
+
+    def __init__(self) -> None:
+        self.seconds = 0.0
+
+    def __call__(self) -> float:
+        self.seconds += 1
+        return self.seconds
+
+
+def test_a_training_of_minutes_ends_by_the_clock_with_the_rate_down_and_resumes(tmp_path: Path) -> None:
+    straight, stopped = tmp_path / "straight", tmp_path / "stopped"
+    straight.mkdir()
+    stopped.mkdir()
+    options = replace(QUICK, minutes=0.2, save_minutes=0.1)
+    ended = train(InMemory(), None, straight, TINY, options, clock=Clock())
+    assert (ended.step, ended.seconds, ended.done) == (12, 12, 1)
+    assert max(group["lr"] for group in ended.optimizer.param_groups) < 0.1 * options.learning_rate
+    with pytest.raises(Interrupted):
+        train(InMemory(), None, stopped, TINY, options, stop_after(5), clock=Clock())
+    train(InMemory(), None, stopped, TINY, options, clock=Clock())
+    first, second = (Checkpoint.read(folder / "last.pt") for folder in (straight, stopped))
+    assert same(vars(first), vars(second))
+
+
+def test_whoever_reads_the_folder_meanwhile_finds_whole_files(tmp_path: Path) -> None:
+    seen: list[int] = []
+
+    def look() -> bool:
+        if (tmp_path / "last.pt").exists():
+            seen.append(Checkpoint.read(tmp_path / "last.pt").step)
+            assert read_weights(tmp_path / "last.safetensors").options == TINY
+        return False
+
+    train(InMemory(), None, tmp_path, TINY, replace(QUICK, steps=4, save_minutes=0), look)
+    assert seen == [1, 2, 3]
+
+
+def test_any_number_of_loaders_cuts_the_same_crops_in_the_same_order() -> None:
+    crops = [list(prefetched(StepCrops(InMemory(), replace(QUICK, loaders=count), 16), 3, 6)) for count in (0, 2)]
+    for first, *others in zip(*crops, strict=True):
+        assert all(same(vars(first.truth), vars(each.truth)) for each in others)
+        assert all(same(vars(first.clouds), vars(each.clouds)) for each in others)
+
+
+def test_a_training_starts_from_given_weights(tmp_path: Path) -> None:
+    trained = train(InMemory(), None, tmp_path, TINY, replace(QUICK, steps=3)).averaged_network()
+    training = Training(InMemory(), TINY, QUICK)
+    training.start_from(trained)
+    assert same(dict(training.averaged_network().state_dict()), dict(trained.state_dict()))
+    with pytest.raises(UsageError, match="another network"):
+        training.start_from(network_of(replace(TINY, smoothing=5)))
+
+
 def test_the_loss_falls(tmp_path: Path) -> None:
     from_nothing = replace(TINY, normal_share=0.0)
     train(InMemory(), None, tmp_path, from_nothing, replace(QUICK, steps=60, log_every=10, learning_rate=0.01))
@@ -71,6 +157,18 @@ def test_the_loss_falls(tmp_path: Path) -> None:
 def test_every_loss_trains(loss: str, tmp_path: Path) -> None:
     options = replace(QUICK, steps=2, loss=LossOptions(loss=loss))
     assert train(InMemory(), None, tmp_path, TINY, options).step == 2
+
+
+def test_half_precision_trains_as_full_does() -> None:
+    # What a GPU runs, on a CPU.
+    parts = {}
+    for half in (False, True):
+        training = Training(InMemory(), TINY, QUICK)
+        training.half = half
+        parts[half] = training.run_step(training.crops[0])
+        assert all(value.dtype == torch.float32 for value in training.network.state_dict().values())
+    assert parts[True] != parts[False]
+    assert parts[True] == pytest.approx(parts[False], rel=0.03)
 
 
 def test_other_options_are_refused_but_for_the_steps(tmp_path: Path) -> None:
@@ -191,7 +289,7 @@ def test_a_thinned_cloud_has_the_density_asked_for() -> None:
 
 
 def test_the_learning_rate_rises_and_falls() -> None:
-    shares = [learning_share(step, 100, 10) for step in range(100)]
+    shares = [learning_share(step, 10, max(step - 10, 0) / 90) for step in range(100)]
     assert shares[0] == pytest.approx(0.1)
     assert max(shares) == shares[10] == 1
     assert shares[-1] < 0.01

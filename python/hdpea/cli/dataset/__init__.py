@@ -7,7 +7,7 @@ import click
 
 from hdpea.cli.lazy import lazy_group
 
-COMMANDS = ("build", "scan", "degrade", "info", "show")
+COMMANDS = ("build", "scan", "degrade", "info", "show", "pack")
 
 EPILOG = """\b
 Begin with:

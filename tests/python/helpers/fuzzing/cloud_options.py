@@ -45,7 +45,7 @@ def settings_at_random(random: Random, points: int) -> dict[str, Any]:
     given = {
         each.name: _value(random, each, points)
         for each in settings()
-        if each.name not in {"weights", "classes", "texture"} and random.random() < OFTEN.get(each.name, 0.08)
+        if each.name not in {"weights", "device", "classes", "texture"} and random.random() < OFTEN.get(each.name, 0.08)
     }
     if "vertices" in given and random.random() < 0.95:
         given.pop("faces", None)
