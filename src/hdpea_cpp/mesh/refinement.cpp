@@ -2,7 +2,6 @@
 #include "hdpea_cpp/mesh/refinement.hpp"
 
 #include <Eigen/Dense>
-#include <Eigen/SparseCholesky>
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -10,8 +9,8 @@
 #include "hdpea_cpp/base/area_vector.hpp"
 #include "hdpea_cpp/base/checks.hpp"
 #include "hdpea_cpp/base/errors.hpp"
-#include "hdpea_cpp/base/sparse.hpp"
 #include "hdpea_cpp/mesh/surface_distance.hpp"
+#include "hdpea_cpp/mesh/vertex_system.hpp"
 #include "hdpea_cpp/points/neighbors.hpp"
 
 namespace hdpea {
@@ -25,12 +24,6 @@ Points area_vectors(const Points& vertices, const FacesRef& faces) {
   }
   return vectors;
 }
-
-/// The least-squares system of one round: its matrix is summed face by face.
-struct NormalEquations {
-  SparseMatrix matrix;
-  Eigen::VectorXd right;
-};
 
 /// Tells whether a point belongs to the sheet that it was projected to.
 class Agreement {
@@ -68,36 +61,24 @@ class Agreement {
   double min_cosine_;
 };
 
-NormalEquations assemble(const Points& vertices, const FacesRef& faces, const PointsRef& points,
-                         const PointsRef& normals, const RefinementOptions& options) {
-  using Block = Eigen::Matrix<double, 9, 9>;
+/// The vertices that fit best in one round: they solve the normal equations.
+Points fitted_vertices(const Points& vertices, const FacesRef& faces, const PointsRef& points, const PointsRef& normals,
+                       const RefinementOptions& options) {
   const SurfacePoints feet = closest_surface_points(vertices, faces, points);
   const Agreement agreement(vertices, faces, options.min_cosine);
-  std::vector<Block, Eigen::aligned_allocator<Block>> blocks(static_cast<std::size_t>(faces.rows()), Block::Zero());
   const double pull = options.pull * static_cast<double>(points.rows()) / static_cast<double>(vertices.rows());
-  NormalEquations system{SparseMatrix(vertices.size(), vertices.size()), pull * vertices.reshaped<Eigen::RowMajor>()};
+  VertexSystem system(vertices.rows(), faces);
+  system.add_to_diagonal(pull);
+  Points right = pull * vertices;
   for (Index p = 0; p < points.rows(); ++p) {
     const Index f = feet.face(p);
-    if (!agreement.holds(normals.row(p), f, feet.barycentric.row(p))) continue;
-    Eigen::Matrix<double, 9, 1> row;
-    for (int i = 0; i < 3; ++i) row.segment<3>(3 * i) = feet.barycentric(p, i) * normals.row(p).transpose();
-    blocks[f].noalias() += row * row.transpose();
-    const double offset = normals.row(p).dot(points.row(p));
-    for (int i = 0; i < 3; ++i) system.right.segment<3>(3 * faces(f, i)) += offset * row.segment<3>(3 * i);
+    const Eigen::RowVector3d weights = feet.barycentric.row(p), normal = normals.row(p);
+    if (!agreement.holds(normal, f, weights)) continue;
+    system.add(f, weights, normal);
+    const double offset = normal.dot(points.row(p));
+    for (int i = 0; i < 3; ++i) right.row(faces(f, i)) += offset * weights(i) * normal;
   }
-  std::vector<Eigen::Triplet<double>> entries;
-  entries.reserve(static_cast<std::size_t>(45 * faces.rows() + vertices.size()));
-  for (Index i = 0; i < vertices.size(); ++i) entries.emplace_back(static_cast<int>(i), static_cast<int>(i), pull);
-  for (Index f = 0; f < faces.rows(); ++f) {
-    for (int i = 0; i < 9; ++i) {
-      for (int j = 0; j < 9; ++j) {
-        const Index row = 3 * faces(f, i / 3) + i % 3, column = 3 * faces(f, j / 3) + j % 3;
-        if (row >= column) entries.emplace_back(static_cast<int>(row), static_cast<int>(column), blocks[f](i, j));
-      }
-    }
-  }
-  system.matrix.setFromTriplets(entries.begin(), entries.end());
-  return system;
+  return system.solve(right, vertices);
 }
 
 /// The size of the faces around each vertex, sqrt(2 area).
@@ -173,13 +154,7 @@ Points refine_vertices(const PointsRef& vertices, const FacesRef& faces, const P
   const Eigen::VectorXd gap = options.max_gap * sizes(refined, faces);
   for (Index round = 0; round < options.rounds; ++round) {
     report(progress, static_cast<double>(round) / static_cast<double>(options.rounds));
-    const NormalEquations system = assemble(refined, faces, points, normals, options);
-    const Eigen::SimplicialLDLT<SparseMatrix> factorization(system.matrix);
-    const Eigen::VectorXd solution = factorization.solve(system.right);
-    if (factorization.info() != Eigen::Success || !solution.allFinite()) {
-      throw CannotReconstruct("the refinement's sparse system has no solution");
-    }
-    Points fitted = Eigen::Map<const Points>(solution.data(), refined.rows(), 3);
+    Points fitted = fitted_vertices(refined, faces, points, normals, options);
     stay_near(points, refined, gap, fitted);
     refined = take_safe_step(refined, fitted, faces, options);
   }

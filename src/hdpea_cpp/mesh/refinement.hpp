@@ -19,8 +19,8 @@ struct RefinementOptions {
 ///
 /// Vertices on tangent planes cut off corners. Each round asks of every point p with normal n, projected to
 /// the face with corners x_b and weights w_b, that n . (sum_b w_b x_b - p) = 0, and of every vertex that it
-/// stays (weakly), and solves the sparse normal equations once. Where a face would flip or be squashed, or a
-/// vertex leave the cloud, steps are shortened.
+/// stays (weakly), and solves the sparse normal equations once (VertexSystem). Where a face would flip or be squashed,
+/// or a vertex leave the cloud, steps are shortened.
 ///
 /// @param vertices  (v, 3)
 /// @param faces     (f, 3) oriented as the normals

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hdpea_cpp/mesh/vertex_system.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+
+#include "hdpea_cpp/base/errors.hpp"
+#include "helpers/shapes.hpp"
+
+namespace hdpea {
+namespace {
+
+TEST(VertexSystem, SolvesWhatADenseMatrixSolves) {
+  const auto mesh = shapes::torus(12, 6);
+  const Index count = mesh.vertices.rows();
+  VertexSystem system(count, mesh.faces);
+  Eigen::MatrixXd dense = 1e-3 * Eigen::MatrixXd::Identity(3 * count, 3 * count);
+  system.add_to_diagonal(1e-3);
+  for (Index f = 0; f < mesh.faces.rows(); ++f) {
+    const Eigen::RowVector3d weights(0.5, 0.3, 0.2);
+    const Eigen::RowVector3d direction = mesh.vertices.row(mesh.faces(f, 0)).normalized();
+    system.add(f, weights, direction);
+    Eigen::VectorXd row = Eigen::VectorXd::Zero(3 * count);
+    for (int i = 0; i < 3; ++i) row.segment<3>(3 * mesh.faces(f, i)) += weights(i) * direction.transpose();
+    dense += row * row.transpose();
+  }
+  const Points right = mesh.vertices.colwise().reverse();
+  const Eigen::VectorXd expected = dense.ldlt().solve(right.reshaped<Eigen::RowMajor>());
+  const Points solution = system.solve(right, mesh.vertices);
+  EXPECT_LT((solution.reshaped<Eigen::RowMajor>() - expected).norm(), 1e-8 * expected.norm());
+  // Beginning at the solution, nothing is left to do.
+  EXPECT_LT((system.solve(right, solution) - solution).norm(), 1e-8 * solution.norm());
+}
+
+TEST(VertexSystem, RefusesNumbersThatOverflow) {
+  const auto mesh = shapes::tetrahedron();
+  VertexSystem system(mesh.vertices.rows(), mesh.faces);
+  system.add_to_diagonal(1);
+  EXPECT_THROW(system.solve(1e300 * mesh.vertices, mesh.vertices), CannotReconstruct);
+}
+
+}  // namespace
+}  // namespace hdpea
