@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hdpea_cpp/embedding/embedding.hpp"
 
+#include <tbb/parallel_invoke.h>
+
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <vector>
 
 #include "hdpea_cpp/base/checks.hpp"
@@ -246,8 +249,10 @@ Coordinates solve_embedding(const PointsRef& points, const PointsRef& normals, c
   if (!std::isfinite(anchor)) throw CannotReconstruct("the points lie in one place");
   const SparseMatrix laplacian = elements.laplacian();
   const double squared_length = options.bending_length * options.bending_length;
-  const Cholesky bending(squared_length * laplacian + diagonal(areas));
-  const Cholesky poisson(laplacian + anchor * diagonal(areas));
+  std::optional<Cholesky> bending, poisson;
+  // Neither needs the other, and a factorization takes one thread.
+  tbb::parallel_invoke([&] { bending.emplace(squared_length * laplacian + diagonal(areas)); },
+                       [&] { poisson.emplace(laplacian + anchor * diagonal(areas)); });
 
   Psi psi = initial ? Psi(*initial) : initial_psi(normals);
   Psi ahead = psi, next(n, 5);
@@ -255,9 +260,9 @@ Coordinates solve_embedding(const PointsRef& points, const PointsRef& normals, c
   for (Index iteration = 0; iteration < options.iterations; ++iteration) {
     report(progress, static_cast<double>(iteration) / static_cast<double>(options.iterations));
     elements.divergence_of_frames(ahead, next);
-    bending.solve_in_place(next);
+    bending->solve_in_place(next);
     next = areas.asDiagonal() * (next + anchor * ahead);
-    poisson.solve_in_place(next);
+    poisson->solve_in_place(next);
     pinned_means.restore(next);
     // Nesterov's momentum (1983). Local/global iteration converges slowly and steadily, with eigenvalues in [0, 1],
     // where it is stable: 25 rounds do what 60 did. The first steps, which are large, get little of it.
