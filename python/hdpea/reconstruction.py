@@ -16,6 +16,7 @@ from hdpea.embedding.device import device_choices
 from hdpea.embedding.tangents import tangent_bases
 from hdpea.errors import core_errors_translated
 from hdpea.frontend.cleaning import DroppedPoints, surface_cloud
+from hdpea.geometry.spatial_order import spatial_order
 from hdpea.geometry.texture import Texture
 from hdpea.mesh.assembly import assemble_mesh
 from hdpea.mesh.attributes import vertex_attributes
@@ -261,7 +262,8 @@ def reconstruct(
         with clock.stage("cleaning"):
             tell(progress, "cleaning", 0)
             found = surface_cloud(cloud, options.cleaning)
-            cloud = found.cloud
+            # Nothing that is returned of the mesh is in the order of the points.
+            cloud = found.cloud.at(spatial_order(found.cloud.points))
             tell(progress, "cleaning", 1)
         shown = found.points_shown
         per_vertex = len(cloud.points) / options.resolution_of(shown)

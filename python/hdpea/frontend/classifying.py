@@ -12,6 +12,7 @@ from hdpea import _core
 from hdpea.errors import core_errors_translated
 from hdpea.frontend.evenness import NEIGHBORS, Sampling, sampling_of
 from hdpea.frontend.strays import find_strays
+from hdpea.geometry.spatial_order import spatial_order
 
 FEWEST_POINTS = 100
 """Fewer are taken as they are: nothing can be said of how they are spread."""
@@ -64,11 +65,17 @@ def classify(points: ArrayLike) -> Classified:
         return Classified(nothing, ~nothing, np.arange(len(rows)), np.zeros(len(rows)), 0.0)
     # Differences of large coordinates lose digits, so the origin comes to the cloud first.
     centered = rows - np.median(rows, axis=0)
+    order = spatial_order(centered)
+    centered = centered[order]
     with core_errors_translated():
         nearest = _core.nearest_neighbors(centered, NEIGHBORS)
         sampling = sampling_of(centered, nearest)
         strays = _strays_of(centered, nearest, sampling)
-    return Classified(strays, sampling.kept & ~strays, sampling.stands_for, sampling.spacing, sampling.on_lines)
+    given = np.empty_like(order)
+    given[order] = np.arange(len(order))
+    kept = sampling.kept & ~strays
+    stands_for = order[sampling.stands_for]
+    return Classified(strays[given], kept[given], stands_for[given], sampling.spacing[given], sampling.on_lines)
 
 
 def _strays_of(points: NDArray[np.float64], nearest: NDArray[np.int64], sampling: Sampling) -> NDArray[np.bool_]:

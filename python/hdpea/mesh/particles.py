@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from hdpea import _core
 from hdpea.errors import core_errors_translated
+from hdpea.geometry.spatial_order import spatial_order
 from hdpea.mesh.cells import restricted_cells
 from hdpea.options import EmbeddingOptions, ParticleOptions
 from hdpea.options.particles import ITERATIONS
@@ -139,6 +140,7 @@ def spread_particles(
     iterations = ITERATIONS if options.iterations is None else options.iterations
     with core_errors_translated():
         seeds = _core.farthest_point_sampling(coordinates, count, options.seed % len(coordinates))
+        seeds = seeds[spatial_order(coordinates[seeds, :3])]
         cells, _ = restricted_cells(coordinates[seeds], bases[seeds], AREA_DISK_RADIUS)
         squared_width = KERNEL_WIDTH**2 * float(cells.cell_areas.sum()) / count
         cloud = _Cloud(coordinates, bases, neighbors, torch_device(device))
