@@ -1,10 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Time and peak memory of the whole command, and of each stage; prints the table of docs/performance.md.
 
-    python benchmarks/stage_times.py [--points 40000,250000] [--shape knot] [--runs 3]
+    python benchmarks/stage_times.py [--points 40000,250000] [--bare 40000] [--scan scans.ply] [--shape knot] [--runs 3]
 
 The command runs as a user runs it, in a process of its own: the total time includes the start of Python and the reading
 and writing of files. Stages are timed by the report that the command writes. Every number is the median of the runs.
+Processor time is that of all threads, with the system's: it changes less than the seconds where other programs run.
 """
 
 from __future__ import annotations
@@ -12,7 +13,6 @@ from __future__ import annotations
 import json
 import os
 import platform
-import shutil
 import subprocess
 import sys
 import tempfile
@@ -22,9 +22,11 @@ from statistics import median
 from typing import Any
 
 import click
+import numpy as np
+
+from hdpea import read_points
 
 SHAPES = Path(__file__).resolve().parent.parent / "examples" / "shapes.py"
-HDPEA = shutil.which("hdpea", path=Path(sys.executable).parent)
 
 Run = dict[str, Any]
 
@@ -32,14 +34,15 @@ Run = dict[str, Any]
 def run_once(cloud: Path, folder: Path, arguments: tuple[str, ...]) -> Run:
     """Reconstruct the cloud; return the command's seconds, its peak memory in MB and its report."""
     report = folder / "report.json"
-    command = [str(HDPEA), "reconstruct", str(cloud), str(folder / "mesh.ply"), "--report", str(report), "--quiet"]
+    command = [sys.executable, "-m", "hdpea", "reconstruct", str(cloud), str(folder / "mesh.ply"), "--quiet", "--force"]
     start = time.perf_counter()
-    process = subprocess.Popen([*command, *arguments])
+    process = subprocess.Popen([*command, "--report", str(report), *arguments])
     _, status, usage = os.wait4(process.pid, 0)
     seconds = time.perf_counter() - start
     if status:
         raise click.ClickException(f"exit code {os.waitstatus_to_exitcode(status)} of: {' '.join(command)}")
-    return {"seconds": seconds, "memory": usage.ru_maxrss / 1024, "report": json.loads(report.read_text())}
+    cpu, memory = usage.ru_utime + usage.ru_stime, usage.ru_maxrss / 1024
+    return {"seconds": seconds, "cpu": cpu, "memory": memory, "report": json.loads(report.read_text())}
 
 
 def seconds_by_stage(run: Run) -> dict[str, float]:
@@ -56,36 +59,56 @@ def print_row(label: str, values: list[float], digits: int) -> None:
     click.echo(f"| {label} | " + " | ".join(f"{value:,.{digits}f}" for value in values) + " |")
 
 
-def print_table(measured: dict[int, list[Run]]) -> None:
-    """Print a row for each stage and for the whole, a column for each size of cloud."""
+def print_table(measured: dict[str, list[Run]]) -> None:
+    """Print a row for each stage and for the whole, a column for each cloud."""
     click.echo(f"{os.cpu_count()} cores, {platform.machine()}, Python {platform.python_version()}.\n")
-    click.echo("| seconds | " + " | ".join(f"{count:,} points" for count in measured) + " |")
+    click.echo("| seconds | " + " | ".join(measured) + " |")
     click.echo("|---|" + "---|" * len(measured))
     stages = [[seconds_by_stage(run) for run in runs] for runs in measured.values()]
-    for name in stages[0][0]:
-        print_row(name, [median(run[name] for run in runs) for runs in stages], 2)
+    # The longest list has the stages that others do without.
+    for name in max((runs[0] for runs in stages), key=len):
+        print_row(name, [median(run.get(name, 0) for run in runs) for runs in stages], 2)
     print_row("**the whole command**", [median(run["seconds"] for run in runs) for runs in measured.values()], 2)
+    print_row("its processor time", [median(run["cpu"] for run in runs) for runs in measured.values()], 2)
     print_row("peak memory, MB", [median(run["memory"] for run in runs) for runs in measured.values()], 0)
     for fact in ("vertices", "faces"):
         print_row(f"{fact} out", [runs[0]["report"]["mesh"][fact] for runs in measured.values()], 0)
 
 
 @click.command(context_settings={"ignore_unknown_options": True})
-@click.option("--points", default="40000,250000", show_default=True, help="sizes of the clouds")
+@click.option("--points", default="40000,250000", show_default=True, help="sizes of the clouds with normals")
+@click.option("--bare", default="40000", show_default=True, help="sizes of the clouds without; none: ''")
+@click.option("--scan", multiple=True, type=click.Path(exists=True, path_type=Path), help="a file of yours, too")
 @click.option("--shape", default="knot", show_default=True, help="a shape of examples/shapes.py")
 @click.option("--runs", default=3, show_default=True)
 @click.argument("arguments", nargs=-1, type=click.UNPROCESSED)
-def main(points: str, shape: str, runs: int, arguments: tuple[str, ...]) -> None:
+def main(points: str, bare: str, scan: tuple[Path, ...], shape: str, runs: int, arguments: tuple[str, ...]) -> None:
     """Time `hdpea reconstruct`; further ARGUMENTS go to it."""
-    counts = [int(count) for count in points.split(",")]
-    measured: dict[int, list[Run]] = {}
+    measured: dict[str, list[Run]] = {}
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
-        for count in counts:
-            cloud = folder / "cloud.ply"
-            subprocess.run([sys.executable, str(SHAPES), shape, str(cloud), "--points", str(count)], check=True)
-            measured[count] = [run_once(cloud, folder, arguments) for _ in range(runs)]
+        clouds = {path.stem: path for path in scan}
+        for count in sizes(points):
+            clouds[f"{count:,} points"] = made(shape, count, folder)
+        for count in sizes(bare):
+            file = folder / f"{count}.npy"
+            np.save(file, read_points(made(shape, count, folder)).points)
+            clouds[f"{count:,} without normals"] = file
+        for label, cloud in clouds.items():
+            measured[label] = [run_once(cloud, folder, arguments) for _ in range(runs)]
     print_table(measured)
+
+
+def sizes(text: str) -> list[int]:
+    """Return the numbers of a list with commas."""
+    return [int(count) for count in text.split(",") if count]
+
+
+def made(shape: str, count: int, folder: Path) -> Path:
+    """Sample a shape."""
+    cloud = folder / f"{count}.ply"
+    subprocess.run([sys.executable, str(SHAPES), shape, str(cloud), "--points", str(count)], check=True)
+    return cloud
 
 
 if __name__ == "__main__":

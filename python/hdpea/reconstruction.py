@@ -26,7 +26,7 @@ from hdpea.mesh.levels import coarser_levels
 from hdpea.mesh.noise import within_noise
 from hdpea.mesh.sides import FacedMesh, facing_out
 from hdpea.mesh.texture import require_colors, texture_of
-from hdpea.options import Classes, Length, MeshingOptions, Options
+from hdpea.options import Classes, EmbeddingOptions, Length, MeshingOptions, Options
 from hdpea.options.settings import changed
 from hdpea.reading.attributes import split_colors
 from hdpea.reading.cloud import PointCloud, cleaned_cloud
@@ -37,7 +37,7 @@ from hdpea.report.measurement import coarseness, compare, level_facts, mesh_fact
 from hdpea.report.report import Distances, Journal, MeshFacts, Report
 from hdpea.runtime.clock import StageClock
 from hdpea.runtime.progress import ProgressCallback, tell
-from hdpea.runtime.pytorch import check_pytorch
+from hdpea.runtime.pytorch import check_pytorch, load_in_background, torch_device
 from hdpea.runtime.threads import limited_threads
 from hdpea.surface.preparation import Preparation, prepare_surface
 from hdpea.surface.surface import Surface
@@ -252,8 +252,10 @@ def reconstruct(
     given = {name: value for name, value in common.items() if value is not None}
     options = changed(options or Options(), given)
     check_pytorch()
+    if options.embedding.device != EmbeddingOptions.device:
+        torch_device(options.embedding.device)  # refused now, not when it is needed
+    load_in_background()
     journal = Journal(options=options)
-    journal.choices += device_choices(options.embedding.device)
     clock = journal.clock
     with limited_threads(options.threads), core_errors_translated():
         cloud = cleaned_cloud(points, normals, sensors, attributes)
@@ -290,6 +292,7 @@ def reconstruct(
     if cloud.crs is not None:
         journal.source["crs"] = cloud.crs
     journal.counts |= cloud.counts() | found.counts() | {"normals_estimated": prepared.oriented.estimated}
+    journal.choices += device_choices(options.embedding.device)
     journal.choices += [*prepared.choices, *noise_choices, *count_choices, *embedded.choices, *mesh.choices]
     journal.meshing |= mesh.statistics
     coarse = coarseness(measured.distances, surface.frame.diagonal, options.meshing)

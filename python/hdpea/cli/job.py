@@ -6,7 +6,6 @@ from __future__ import annotations
 import json
 import sys
 from dataclasses import dataclass
-from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -105,18 +104,18 @@ def make_mesh(job: Job, progress: ProgressCallback | None) -> Report:
     """
     from hdpea.reading import read_scans
     from hdpea.runtime.clock import StageClock
+    from hdpea.runtime.pytorch import load_in_background
 
     clock, sources = StageClock(), job.destination.sources
     tell(progress, "reading", 0.0)
     with clock.stage("reading"):
         cloud = read_scans(sources)
-    # Torch takes seconds to load, so this comes after all that may be wrong with the request.
+    # PyTorch takes seconds to load, so this comes after all that may be wrong with the request.
     tell(progress, "start-up", 0.0)
     with clock.stage("start-up"):
+        load_in_background()
         from hdpea.reconstruction import reconstruct
 
-        # Or the clock would not see it: the stages load it when they first need it.
-        import_module("torch")
     result = reconstruct(cloud, options=job.options, progress=progress)
     result.report.begin_with(", ".join(sources), clock)
     tell(progress, "writing", 0.0)

@@ -96,7 +96,7 @@ class ErrorBound:
         return np.asarray(distances[~on_patches(places, distances, mesh.patches)])
 
     def _of_disks(self, places: NDArray[np.float64], nearest: NDArray[np.int64]) -> NDArray[np.float64]:
-        """Return the distance (p,) of places (p, 3) from the disk of the one of their `nearest` (p, k) that shows it."""
+        """Return the distance (p,) of places (p, 3) from the disk of that of their `nearest` (p, k) that shows it."""
         offsets = places[:, None] - self.surface.points_in_unit[nearest]
         heights = np.einsum("pkc,pkc->pk", offsets, self.surface.normals[nearest])
         aside = np.sqrt(np.maximum(np.einsum("pkc,pkc->pk", offsets, offsets) - heights**2, 0))

@@ -7,7 +7,10 @@ Which of its builds fits the machine is the user's choice, so pip does not bring
 from __future__ import annotations
 
 import os
+import sys
+from importlib import import_module
 from importlib.util import find_spec
+from threading import Thread
 from typing import TYPE_CHECKING
 
 from hdpea.errors import UsageError
@@ -35,6 +38,12 @@ def check_pytorch() -> None:
             "The small build, for any processor: pip install torch --index-url https://download.pytorch.org/whl/cpu. "
             "The usual one, on Linux with CUDA and several GB large: pip install 'hdpea[torch]'.",
         )
+
+
+def load_in_background() -> None:
+    """Begin to load PyTorch, if it is there, beside the stages that do without it; an import waits for the rest."""
+    if "torch" not in sys.modules and has_pytorch():
+        Thread(target=import_module, args=("torch",)).start()
 
 
 def torch_device(name: str) -> torch.device:
