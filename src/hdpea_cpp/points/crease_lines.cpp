@@ -21,6 +21,9 @@ constexpr double kStep = 0.5, kMeanStep = 0.6;
 /// How far neighbours on one line are turned from each other at most, and those across a gap, in degrees.
 constexpr double kTurned = 25, kTurnedAcrossGap = 12;
 
+/// How far they are off it at most, in spacings.
+constexpr double kOff = 0.4;
+
 double cosine_of(double degrees) { return std::cos(degrees * std::numbers::pi / 180); }
 
 double off_line(const CreaseSample& sample, const Vector& x) {
@@ -28,9 +31,10 @@ double off_line(const CreaseSample& sample, const Vector& x) {
   return (offset - sample.direction * sample.direction.dot(offset)).norm();
 }
 
-/// Whether both lie on one line between the same two surfaces, turned by at most an angle in degrees.
-bool continues(const CreaseSample& one, const CreaseSample& other, double most_turned = kTurned) {
-  constexpr double most_off = 0.4;
+/// Whether both lie on one line between the same two surfaces: turned by at most an angle in degrees, and off it by at
+/// most so many spacings.
+bool continues(const CreaseSample& one, const CreaseSample& other, double most_turned = kTurned,
+               double most_off = kOff) {
   const double least_cosine = cosine_of(most_turned);
   const auto agree = [&](const Vector& first, const Vector& second) {
     return one.first.dot(first) > least_cosine && one.second.dot(second) > least_cosine;
@@ -125,9 +129,10 @@ std::vector<CreaseSample> thinned(std::vector<CreaseSample> samples) {
   return kept;
 }
 
-std::vector<CreaseSample> on_long_lines(const std::vector<CreaseSample>& samples, double min_length) {
+std::vector<CreaseSample> on_long_lines(const std::vector<CreaseSample>& samples, double min_length,
+                                        double strong_residual) {
   constexpr Index neighbors = 12, far_neighbors = 48;
-  constexpr double most_apart = 2, most_gap = 6;
+  constexpr double most_apart = 2, most_gap = 6, most_off_of_weak = 0.25;
   constexpr int least_of_piece = 4;
   if (samples.empty()) return samples;
   const Points positions = crease_positions(samples);
@@ -136,10 +141,17 @@ std::vector<CreaseSample> on_long_lines(const std::vector<CreaseSample>& samples
   const auto apart = [&](Index i, Index j) {
     return (positions.row(i) - positions.row(j)).norm() / samples[i].spacing;
   };
+  const auto strong = [&](Index i) { return samples[i].residual <= strong_residual; };
+  // What is weak has to lie on a line more exactly.
+  const auto joined = [&](Index i, Index j) {
+    if (apart(i, j) > most_apart) return false;
+    return strong(i) && strong(j) ? continues(samples[i], samples[j])
+                                  : continues(samples[i], samples[j], kTurnedAcrossGap, most_off_of_weak);
+  };
   DisjointSets pieces(count);
   for (Index i = 0; i < count; ++i) {
     for (Index j : near.row(i).head(neighbors)) {
-      if (j >= 0 && apart(i, j) <= most_apart && continues(samples[i], samples[j])) pieces.join(i, j);
+      if (j >= 0 && joined(i, j)) pieces.join(i, j);
     }
   }
   std::vector<int> sizes(samples.size(), 0);
@@ -156,7 +168,7 @@ std::vector<CreaseSample> on_long_lines(const std::vector<CreaseSample>& samples
     }
   }
   std::vector<double> lengths(samples.size(), 0);
-  for (Index i = 0; i < count; ++i) lengths[lines.find(i)] += kMeanStep;
+  for (Index i = 0; i < count; ++i) lengths[lines.find(i)] += strong(i) ? kMeanStep : 0;
   std::vector<CreaseSample> kept;
   for (Index i = 0; i < count; ++i) {
     if (lengths[lines.find(i)] >= min_length) kept.push_back(samples[i]);

@@ -24,6 +24,9 @@ using Found = std::vector<std::vector<CreaseSample>>;
 /// Nearest points that the spacing is told from.
 constexpr int kOfSpacing = 12;
 
+/// Nearest points to search for so many of two sides: some may belong to a third, or to another wall.
+Index candidates(Index neighbors) { return neighbors * 3 / 2; }
+
 double cosine_of(double degrees) { return std::cos(degrees * std::numbers::pi / 180); }
 
 class Search {
@@ -31,23 +34,21 @@ class Search {
   Search(const PointsRef& points, const PointsRef& normals, const CreaseOptions& options)
       : points_(points), normals_(normals), options_(options) {}
 
-  /// Around points near which normals differ. Around some of them the wedge lies to one side, and fits less well.
-  std::vector<CreaseSample> around_points() const {
+  /// Around some points. Of some of them the crease lies to one side, and the wedge fits less well.
+  std::vector<CreaseSample> around_points(const std::vector<Index>& centres, const Neighbors& near) const {
     const double smooth = cosine_of(25), other_wall = -0.7, lenience = 2;
-    const Neighbors near = nearest_neighbors(points_, points_, candidates());
-    Found found(static_cast<std::size_t>(points_.rows()));
-    parallel_for(points_.rows(), [&](Index i) {
-      const Vector own = normals_.row(i);
+    Found found(centres.size());
+    parallel_for(static_cast<Index>(centres.size()), [&](Index c) {
+      const Vector centre = points_.row(centres[c]), own = normals_.row(centres[c]);
       const auto visible = [&](const Vector& normal) { return normal.dot(own) >= other_wall; };
-      const Neighborhood around = neighborhood(points_.row(i), near.row(i), visible);
+      const Neighborhood around = neighborhood(centre, near.row(c), visible);
       if (around.points.empty()) return;
       const std::vector<Vector> normals = differing_normals(around);
       for (std::size_t a = 0; a < normals.size(); ++a) {
         for (std::size_t b = a + 1; b < normals.size(); ++b) {
           if (normals[a].dot(normals[b]) > smooth) continue;
-          const auto made =
-              sample(points_.row(i), near.row(i), normals[a], normals[b], lenience * options_.max_residual);
-          if (made) found[i].push_back(*made);
+          const auto made = sample(centre, near.row(c), normals[a], normals[b], lenience * options_.max_residual);
+          if (made) found[c].push_back(*made);
         }
       }
     });
@@ -57,7 +58,7 @@ class Search {
   /// Around the places that were found.
   std::vector<CreaseSample> around_samples(const std::vector<CreaseSample>& samples) const {
     if (samples.empty()) return {};
-    const Neighbors near = nearest_neighbors(points_, crease_positions(samples), candidates());
+    const Neighbors near = nearest_neighbors(points_, crease_positions(samples), candidates(options_.neighbors));
     Found found(samples.size());
     parallel_for(static_cast<Index>(samples.size()), [&](Index i) {
       const CreaseSample& old = samples[i];
@@ -68,24 +69,23 @@ class Search {
   }
 
  private:
-  /// Nearest points, of which some may belong to a third plane or to another wall.
-  Index candidates() const { return options_.neighbors * 3 / 2; }
+  template <class Row>
+  double spacing(const Vector& centre, const Row& row) const {
+    const Index last = std::min<Index>(kOfSpacing, points_.rows()) - 1;
+    return (points_.row(row(last)).transpose() - centre).norm() * std::sqrt(std::numbers::pi / kOfSpacing);
+  }
 
-  /// Of the nearest points those with a normal that is wanted.
+  /// Of the nearest points those that are wanted.
   template <class Row, class Wanted>
   Neighborhood neighborhood(const Vector& centre, const Row& row, const Wanted& wanted) const {
-    Neighborhood around{{}, {}, centre, 0};
-    double radius = 0;
-    int count = 0;
+    Neighborhood around{{}, {}, centre, spacing(centre, row)};
     for (Index j : row) {
       if (j < 0 || static_cast<Index>(around.points.size()) == options_.neighbors) break;
       const Vector point = points_.row(j), normal = normals_.row(j);
-      if (++count <= kOfSpacing) radius = (point - centre).norm();
       if (!wanted(normal)) continue;
       around.points.push_back(point);
       around.normals.push_back(normal);
     }
-    around.spacing = radius * std::sqrt(std::numbers::pi / kOfSpacing);
     return around;
   }
 
@@ -122,6 +122,19 @@ class Search {
   const CreaseOptions& options_;
 };
 
+/// Points near which normals differ, with or without the smear of estimated ones: all others are left out at once.
+std::vector<Index> near_bends(const PointsRef& points, const PointsRef& normals) {
+  constexpr Index neighbors = 20;
+  static const double bent = cosine_of(15);
+  const Neighbors near = nearest_neighbors(points, points, neighbors);
+  std::vector<Index> found;
+  for (Index i = 0; i < points.rows(); ++i) {
+    const auto differs = [&](Index j) { return j >= 0 && normals.row(i).dot(normals.row(j)) < bent; };
+    if (std::any_of(near.row(i).begin(), near.row(i).end(), differs)) found.push_back(i);
+  }
+  return found;
+}
+
 }  // namespace
 
 Creases find_creases(const PointsRef& points, const PointsRef& normals, const CreaseOptions& options) {
@@ -131,16 +144,19 @@ Creases find_creases(const PointsRef& points, const PointsRef& normals, const Cr
   require_finite(normals, "normals");
   require(options.neighbors >= kOfSpacing, "a crease needs 12 neighbors or more");
   std::vector<CreaseSample> samples;
+  const std::vector<Index> bends = near_bends(points, normals);
+  if (bends.empty()) return {};
+  const Neighbors near = nearest_neighbors(points, points(bends, Eigen::all), candidates(options.neighbors));
   // Few points see a crease that turns, many one that is noisy; the better fit of both is kept.
   for (Index neighbors : {options.neighbors / 2 + 2, options.neighbors}) {
     CreaseOptions scale = options;
     scale.neighbors = neighbors;
     const Search search(points, normals, scale);
-    std::vector<CreaseSample> found = search.around_points();
+    std::vector<CreaseSample> found = search.around_points(bends, near);
     for (int round = 0; round < rounds; ++round) found = search.around_samples(found);
     samples.insert(samples.end(), found.begin(), found.end());
   }
-  samples = on_long_lines(thinned(samples), options.min_length);
+  samples = on_long_lines(thinned(samples), options.min_length, options.strong_residual);
   std::vector<Vector> corners = join_at_corners(samples);
   return {std::move(samples), std::move(corners)};
 }

@@ -9,12 +9,15 @@ namespace hdpea {
 
 /// What counts as a crease. Spacings are local: the square root of the area per point.
 ///
-/// The limits are the most lenient at which bull and kitten, 40,000 points each, show none.
+/// The limits are such that bull and kitten, 40,000 points each, show none, with noise of up to 0.3 spacings or
+/// without. Without the weak samples, of the creases of fandisk with noise of 0.1 spacings 58 % would be found, not 84
+/// %.
 struct CreaseOptions {
-  Index neighbors = 32;       ///< points that two half-planes are fitted to, and a little more than half as many
-  double min_angle = 40;      ///< degrees between their normals
-  double max_residual = 0.4;  ///< variance off the half-planes, as a share of that off a quadratic surface
-  double min_length = 16;     ///< of lines of creases that meet, together, in spacings
+  Index neighbors = 32;          ///< points that two half-planes are fitted to, and a little more than half as many
+  double min_angle = 40;         ///< degrees between their normals
+  double max_residual = 0.5;     ///< variance off the half-planes, as a share of that off a quadratic surface
+  double strong_residual = 0.4;  ///< the same where a place proves a crease, and does not only continue one
+  double min_length = 16;        ///< of lines of creases that meet, together, in spacings, where they are strong
 };
 
 /// A place on a crease.

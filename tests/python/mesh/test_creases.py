@@ -61,9 +61,10 @@ def test_round_things_have_no_creases_whatever_their_noise(noise: float):
     assert len(_core.find_creases(noisy, normals).positions) == 0
 
 
-def test_noise_leaves_the_edges_of_a_cube():
+@pytest.mark.parametrize("noise", [0.05, 0.1])
+def test_noise_leaves_the_edges_of_a_cube(noise: float):
     points, normals = clouds.box(COUNT)
-    noisy = points + 0.05 * SPACING * np.random.default_rng(0).normal(size=points.shape)
+    noisy = points + noise * SPACING * np.random.default_rng(0).normal(size=points.shape)
     creases = _core.find_creases(noisy, normals)
     assert len(creases.positions) > 12 / SPACING
     assert _off_edges(creases.positions).max() < 0.5 * SPACING
