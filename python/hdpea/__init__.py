@@ -20,8 +20,8 @@ if TYPE_CHECKING:
     from hdpea.options.reconstruction import Options as Options
     from hdpea.reading import read as read
     from hdpea.reading import read_points as read_points
-    from hdpea.reconstruction import Reconstruction as Reconstruction
     from hdpea.reconstruction import reconstruct as reconstruct
+    from hdpea.result import Reconstruction as Reconstruction
     from hdpea.writing.meshes import write_mesh as write_mesh
 
 __all__ = [
@@ -45,7 +45,7 @@ __getattr__, __dir__ = lazy_names(
         "CurvatureTensors": "hdpea.curvature.tensors",
         "Embedding": "hdpea.embedding",
         "Options": "hdpea.options",
-        "Reconstruction": "hdpea.reconstruction",
+        "Reconstruction": "hdpea.result",
         "embed_points": "hdpea.embedding",
         "estimate_curvature": "hdpea.curvature.estimation",
         "read": "hdpea.reading",

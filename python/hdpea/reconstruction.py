@@ -4,18 +4,15 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field
-from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
-import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from hdpea.embedding import Embedder, embed_surface
 from hdpea.embedding.device import device_choices
 from hdpea.embedding.tangents import tangent_bases
 from hdpea.errors import core_errors_translated
-from hdpea.frontend.cleaning import DroppedPoints, surface_cloud
+from hdpea.frontend.cleaning import surface_cloud
 from hdpea.geometry.spatial_order import spatial_order
 from hdpea.geometry.texture import Texture
 from hdpea.mesh.assembly import assemble_mesh
@@ -35,18 +32,13 @@ from hdpea.report.achieved_error import AchievedError, achieved_error
 from hdpea.report.agreement import Agreement
 from hdpea.report.measurement import coarseness, compare, level_facts, mesh_facts, missed_targets
 from hdpea.report.report import Distances, Journal, MeshFacts, Report
+from hdpea.result import Level, Reconstruction
 from hdpea.runtime.clock import StageClock
 from hdpea.runtime.progress import ProgressCallback, tell
 from hdpea.runtime.pytorch import check_pytorch, load_in_background, torch_device
 from hdpea.runtime.threads import limited_threads
 from hdpea.surface.preparation import Preparation, prepare_surface
 from hdpea.surface.surface import Surface
-from hdpea.writing.meshes import level_path, write_mesh
-from hdpea.writing.objects import as_open3d, as_pyvista, as_trimesh
-
-if TYPE_CHECKING:
-    import pyvista
-    import trimesh
 
 PHASES = (
     "cleaning",
@@ -64,83 +56,6 @@ PHASES = (
 """The phases that ``progress`` hears of, in order; of denoising only if there is noise, or it is asked for, and of
 simplification, remeshing, and another refinement after them, only if fewer vertices are wanted than particles are
 spread."""
-
-
-@dataclass(frozen=True)
-class Level:
-    """A coarser version of a mesh: vertices (v, 3) in world units, faces (f, 3) and attributes, as of the mesh."""
-
-    vertices: NDArray[np.float64]
-    faces: NDArray[np.int64]
-    attributes: Mapping[str, NDArray[Any]] = field(default_factory=dict)
-
-
-@dataclass(frozen=True)
-class Reconstruction:
-    """A mesh, and the report of how it was made.
-
-    Attributes
-    ----------
-    vertices
-        (v, 3) float64 in world units.
-    faces
-        (f, 3) int64, counter-clockwise seen from outside. Edge- and vertex-manifold.
-    report
-        What was asked, chosen, found and measured.
-    dropped
-        The points that were left out because they show no surface, or crowd on scan lines.
-    attributes
-        Arrays (v,) or (v, c) by name: the attributes of the points at the vertices (``hdpea.mesh.attributes``); colours
-        are red, green and blue, sRGB of 8 bits.
-    crs
-        The coordinate reference system of the vertices, if the cloud's is known.
-    texture
-        An image of the colours of the points and how it lies on the mesh, if it was asked for.
-    levels
-        Coarser versions, each made from the one before, if `options.meshing.lod` asks for them.
-    """
-
-    vertices: NDArray[np.float64]
-    faces: NDArray[np.int64]
-    report: Report
-    dropped: DroppedPoints = field(default_factory=DroppedPoints)
-    attributes: Mapping[str, NDArray[Any]] = field(default_factory=dict)
-    crs: str | None = None
-    texture: Texture | None = None
-    levels: tuple[Level, ...] = ()
-
-    def write(self, path: str | Path) -> None:
-        """Write the mesh with its attributes, its texture and where it lies, as ``hdpea.write_mesh`` does.
-
-        Its levels are written beside it, without the texture: those of mesh.obj are mesh.lod1.obj and so on.
-        """
-        write_mesh(path, self.vertices, self.faces, self.attributes, self.crs, self.texture)
-        for number, level in enumerate(self.levels, start=1):
-            write_mesh(level_path(Path(path), number), level.vertices, level.faces, level.attributes, self.crs)
-
-    def to_trimesh(self) -> trimesh.Trimesh:
-        """Return it with colours, the other attributes as ``vertex_attributes``."""
-        return as_trimesh(self.vertices, self.faces, self.attributes)
-
-    def to_open3d(self) -> Any:
-        """Return an ``open3d.geometry.TriangleMesh`` with normals and colours.
-
-        Raises
-        ------
-        UsageError
-            If Open3D is not installed.
-        """
-        return as_open3d(self.vertices, self.faces, self.attributes)
-
-    def to_pyvista(self) -> pyvista.PolyData:
-        """Return it with colours as ``RGB`` and the other attributes, in its ``point_data``.
-
-        Raises
-        ------
-        UsageError
-            If PyVista is not installed.
-        """
-        return as_pyvista(self.vertices, self.faces, self.attributes)
 
 
 def reconstruct(

@@ -15,8 +15,8 @@ from hdpea.options import Options
 from hdpea.runtime.progress import ProgressCallback, tell
 
 if TYPE_CHECKING:
-    from hdpea.reconstruction import Reconstruction
     from hdpea.report.report import Report
+    from hdpea.result import Reconstruction
 
 
 @dataclass(frozen=True)
