@@ -76,6 +76,16 @@ def test_all_strays_are_found_also_where_they_are_each_others_neighbors(count: i
     assert found.strays[: len(surface)].mean() <= 1e-3
 
 
+def test_a_sheet_far_sparser_than_what_it_borders_on_is_kept() -> None:
+    random = np.random.default_rng(3)
+    dense = random.random((6000, 3)) * [1, 1, 0]
+    sparse = random.random((500, 3)) * [3, 1, 0] + [1, 0, 0]
+    strays = random.random((40, 3)) * [4, 1, 1] + [0, 0, 0.3]
+    found = classify(np.vstack([dense, sparse, strays])).strays
+    assert found[-len(strays) :].all()
+    assert found[: -len(strays)].sum() <= 10  # at the rim; without a look at sheets, 100
+
+
 def test_of_points_on_lines_those_are_kept_that_the_gaps_need() -> None:
     cloud = scan_lines(40, density=15)
     found = classify(cloud)
