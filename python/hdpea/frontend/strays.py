@@ -149,7 +149,7 @@ def _in_sheets(points: NDArray[np.float64], strays: NDArray[np.bool_]) -> NDArra
         among = back[nearest].sum(axis=1) - 1
         held = back[rows] & ((~strays | back)[nearest].sum(axis=1) - 1 >= SHEET) & (among >= SHEET_COMPANY)
         if held.sum() == back.sum():
-            return rows[held]
+            return np.asarray(rows[held])
         back[rows] = held
 
 
