@@ -66,7 +66,7 @@ std::vector<Vector> differing_normals(const Neighborhood& around) {
   for (const Vector& n : around.normals) sum += n;
   // Of each normal, how like it is to the likest of those that were taken.
   std::vector<double> likeness;
-  for (const Vector& n : around.normals) likeness.push_back(n.dot(sum) / around.normals.size());
+  for (const Vector& n : around.normals) likeness.push_back(n.dot(sum) / static_cast<double>(around.normals.size()));
   std::vector<Vector> taken;
   while (taken.size() < most) {
     const auto least = std::min_element(likeness.begin(), likeness.end());
