@@ -112,6 +112,7 @@ def test_the_report_tells_everything(tmp_path: Path) -> None:
         "normal_neighbors",
         "orient",
         "denoise",
+        "device",
         "bending_length",
         "curvature_radius",
         "disk_radius",
@@ -119,6 +120,7 @@ def test_the_report_tells_everything(tmp_path: Path) -> None:
     }
     assert chosen.keys() == wanted
     assert (chosen.pop("orient")["value"], chosen.pop("denoise")["value"]) == ("wnnc", "none")
+    assert chosen.pop("device")["value"].startswith(("cpu", "cuda"))
     for choice in chosen.values():
         assert choice["value"] > 0
         assert len(choice["why"]) > 10

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import os
 import sys
+from contextlib import suppress
 from importlib import import_module
 from importlib.util import find_spec
 from threading import Thread
@@ -43,7 +44,13 @@ def check_pytorch() -> None:
 def load_in_background() -> None:
     """Begin to load PyTorch, if it is there, beside the stages that do without it; an import waits for the rest."""
     if "torch" not in sys.modules and has_pytorch():
-        Thread(target=import_module, args=("torch",)).start()
+        Thread(target=_load).start()
+
+
+def _load() -> None:
+    # It fails where the run has ended meanwhile; whoever needs it meets any other error on importing it again.
+    with suppress(Exception):
+        import_module("torch")
 
 
 def torch_device(name: str) -> torch.device:
