@@ -4,8 +4,8 @@
     pip install open3d && apt-get install libcgal-demo
     python benchmarks/front_picture.py docs/front.png
 
-The cloud is point_set_3.xyz of Debian's libcgal-demo, a house, and some of the ground around it. Its normals are given to neither
-method. Prints what each mesh is like.
+The cloud is point_set_3.xyz of Debian's libcgal-demo, a house and some of the ground around it. Its normals are given to
+neither method. Prints what each mesh is like.
 """
 
 from __future__ import annotations
