@@ -4,7 +4,7 @@
     pip install open3d && apt-get install libcgal-demo
     python benchmarks/front_picture.py docs/front.png
 
-The cloud is point_set_3.xyz of Debian's libcgal-demo, a house and some of the ground around it. Its normals are given to
+The cloud is point_set_3.xyz of Debian's libcgal-demo, a house and some ground around it. Its normals are given to
 neither method. Prints what each mesh is like.
 """
 
