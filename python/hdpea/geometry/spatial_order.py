@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -16,7 +18,7 @@ POINTS_PER_CELL = 16
 unit or another place, hardly ever changes it."""
 
 
-def spatial_order(points: NDArray[np.float64]) -> NDArray[np.int64]:
+def spatial_order(points: NDArray[np.floating[Any]]) -> NDArray[np.int64]:
     """Return the rows of points (n, 3) along a Z-order curve (Morton 1966) through cells of their bounding box.
 
     The curve begins at the first point, and goes on at its beginning after its end: what begins at the first point does

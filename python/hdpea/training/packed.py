@@ -3,7 +3,7 @@
 
 It travels to where the training runs, and holds what a training looks at: no curvatures and no sensors. Coordinates are
 whole numbers of 16 bits between the least and the most of their column; of a surface 100 spacings across, a step is
-0.002 of one. The points are in order along a curve, so that those of a crop lie side by side in memory.
+0.002 of one. The points are in an order of space, so that those of a crop lie side by side in memory.
 """
 
 from __future__ import annotations
@@ -21,6 +21,7 @@ from safetensors.numpy import save_file
 from hdpea.dataset.sample import Sample
 from hdpea.errors import UnreadableInput
 from hdpea.geometry.metric import ScaledMetric
+from hdpea.geometry.spatial_order import spatial_order
 from hdpea.geometry.unit_frame import UnitFrame
 from hdpea.runtime.outputs import replacing
 from hdpea.training.crops import Samples
@@ -35,9 +36,6 @@ COLUMNS = {"points": 3, "normals": 3, "psi": 5, "surface_points": 3, "estimated_
 
 STEPS = 2**16 - 1
 
-CELLS = 64
-"""Cells along each axis of the grid through which the curve runs."""
-
 
 def write_packed(path: Path, samples: Samples) -> None:
     """Pack all samples, whole or not at all."""
@@ -45,7 +43,7 @@ def write_packed(path: Path, samples: Samples) -> None:
     described: dict[str, dict[str, Any]] = {}
     for name in samples.names:
         sample = samples.read(name)
-        order = _along_curve(sample.points)
+        order = spatial_order(sample.points)
         ranges: dict[str, list[list[float]]] = {}
         for each in COLUMNS:
             column = getattr(sample, each)
@@ -121,13 +119,3 @@ class Packed:
             frame=UnitFrame(np.zeros(3), 1.0),
             estimated_normals=arrays.get("estimated_normals"),
         )
-
-
-def _along_curve(points: NDArray[np.float32]) -> NDArray[np.int64]:
-    """Return the order (n,) of points (n, 3) along a z-curve through the cells of a grid."""
-    extent = np.ptp(points, axis=0).max() or 1.0
-    cells = np.minimum((points - points.min(axis=0)) / extent * CELLS, CELLS - 1).astype(np.int64)
-    bits = np.arange(CELLS.bit_length() - 1)
-    spread = ((cells[:, :, None] >> bits) & 1) << (3 * bits)  # (n, 3, bits)
-    keys = (spread.sum(axis=2) << np.arange(3)).sum(axis=1)
-    return np.argsort(keys, kind="stable")
