@@ -56,10 +56,18 @@ def destinations(files: Sequence[str], out_dir: Path | None, merge: bool, mesh_f
         return [Destination(tuple(sources), None, f".{mesh_format}")]
     output: Path = PATH.convert(last, None, None)
     if output.suffix[1:].lower() not in FORMATS and output.is_file():
-        raise UsageError(f"{output} is no name of a mesh, but a file that exists.", _SEVERAL)
+        raise UsageError(f"{output} is no name of a mesh, but a file that exists.", _hint_on(sources, output))
     if mesh_format is not None and output.suffix.lower() != f".{mesh_format}":
         raise UsageError(f"{output} does not end in .{mesh_format}, its `mesh_format`.", "The extension says enough.")
     return [Destination(tuple(sources), output, output.suffix.lower())]
+
+
+def _hint_on(sources: Sequence[str], scan: Path) -> str:
+    """Return what to do where a scan is named in the place of a mesh."""
+    first = sources[0]
+    if Path(first).suffix[1:].lower() in FORMATS and not Path(first).exists():
+        return f"The cloud comes first: hdpea reconstruct {scan} {first}"
+    return f"Name a mesh: {scan.stem}.{FORMATS[0]}, say. {_SEVERAL}"
 
 
 def _all_in_folder(sources: Sequence[str], folder: Path, mesh_format: str | None) -> list[Destination]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import json
 import sys
+from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -156,6 +157,15 @@ def _write_mesh(destination: Destination, result: Reconstruction) -> None:
     content, _ = mesh_content(destination.extension, *mesh)
     sys.stdout.buffer.write(content)
     sys.stdout.buffer.flush()
+
+
+def remarks(job: Job, report: Report) -> Iterator[str]:
+    """Yield what else there is to say to whoever waits for a mesh: a line each."""
+    others = [str(path) for path, kind in job.outputs() if kind != "mesh" and path.exists()]
+    if others:
+        yield f"Also written: {', '.join(others)}"
+    if job.destination.extension == ".stl" and not report.mesh.closed:
+        yield "The mesh is open; a 3D printer needs a closed one: --watertight makes it so."
 
 
 def missed(job: Job, report: Report) -> QualityMissed | None:

@@ -15,7 +15,7 @@ import click
 
 from hdpea.cli.config import config_of, config_option
 from hdpea.cli.destinations import FORMATS, destinations, require_no_scan
-from hdpea.cli.job import Ended, Job, make_mesh, missed
+from hdpea.cli.job import Ended, Job, make_mesh, missed, remarks
 from hdpea.cli.parameters import (
     PATH,
     GroupedCommand,
@@ -202,6 +202,8 @@ def _make_one(job: Job, as_json: bool, quiet: bool, verbose: bool) -> None:
             click.echo(Ended.of(job, report, error).as_line())
         if not quiet:
             click.echo(summarize(report, job.destination.name, verbose), err=True)
+            for line in remarks(job, report):
+                click.echo(line, err=True)
     except HdpeaError as failed:
         if as_json:
             click.echo(Ended.of(job, None, failed).as_line())

@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from tempfile import gettempdir
 from typing import TYPE_CHECKING, Any
@@ -43,7 +43,7 @@ def command(*, sources: tuple[Path, ...], page: Path | None, force: bool) -> Non
     shown in the same coordinates, the second beside the first; meshes are coloured by their distance
     to the first cloud among them. The page is one HTML file that needs nothing else.
     """
-    from hdpea.pages.colorings import COLOR
+    from hdpea.pages.colorings import COLOR, DISTANCE
     from hdpea.pages.page import PAGE_FORMATS, write_page
 
     written = page or Path(gettempdir()) / f"hdpea-{sources[0].stem}.html"
@@ -52,10 +52,25 @@ def command(*, sources: tuple[Path, ...], page: Path | None, force: bool) -> Non
     check_replaceable({written: "page"}, force)
     shapes = list(_shapes(sources))
     title, beside = ", ".join(each.name for each in sources), 1 if len(shapes) > 1 else None
-    write_page(written, title, shapes, coloring=COLOR, beside=beside)
-    click.echo(f"{written}: {written.stat().st_size / 1e6:.1f} MB", err=True)
+    figures = list(_figures(shapes))
+    write_page(written, title, shapes, figures, coloring=DISTANCE if figures else COLOR, beside=beside)
+    click.echo(f"{written}: {written.stat().st_size / 1e6:.1f} MB; it opens in any browser", err=True)
     if page is None:
         click.launch(str(written))
+
+
+def _figures(shapes: Sequence[Shape]) -> Iterator[tuple[str, str]]:
+    """Yield how far the points of each cloud are from the mesh, if there is one."""
+    import numpy as np
+
+    from hdpea.pages.colorings import DISTANCE
+    from hdpea.pages.shapes import PointShape
+
+    for shape in shapes:
+        for each in shape.colorings if isinstance(shape, PointShape) else ():
+            if each.name == DISTANCE:
+                yield f"{shape.name} to mesh, rms", f"{np.sqrt(np.mean(each.values**2)):.3g}"
+                yield "at most", f"{each.values.max():.3g}"
 
 
 def _shapes(sources: tuple[Path, ...]) -> Iterator[Shape]:

@@ -40,7 +40,8 @@ class Mesh:
     coordinates
         (v, d) float64: where the vertices are in the embedding; a fit to the points does not move them there.
     statistics
-        Counts of candidate triangles and holes by name, before any simplification.
+        Counts of candidate triangles and holes, and the share of the area that fills holes, by name, before any
+        simplification.
     choices
         The lengths that were chosen automatically, in world units.
     patches
@@ -132,6 +133,7 @@ def _fill_holes(
     statistics["holes_left"] = filled.left
     statistics["faces_joined"] = len(filled.faces)
     centres = _core.nearest_neighbors(vertices, filled.vertices[len(vertices) :], 1)[:, 0]
-    patches = filled.vertices[filled.faces[len(extracted.faces) :]]
+    closing = filled.faces[len(extracted.faces) :]
+    statistics["area_filled"] = mesh_area(filled.vertices, closing) / mesh_area(filled.vertices, filled.faces)
     coordinates = np.vstack([coordinates, coordinates[centres]])
-    return Mesh(filled.vertices, filled.faces, coordinates, statistics, choices, patches)
+    return Mesh(filled.vertices, filled.faces, coordinates, statistics, choices, filled.vertices[closing])

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hdpea.errors import UnreadableInput
-from hdpea.reading.tables import is_number
+from hdpea.reading.tables import MEND_LINE, is_number
 
 UNKNOWN = frozenset({"", "na", "n/a", "null", "none", "-", "nan"})
 """Fields, in lower case, where there is no number."""
@@ -101,4 +101,4 @@ def parse_columns(lines: Sequence[str], separator: str, first_line: int) -> Colu
 
 def _bad_line(number: int, row: list[str], separator: str, expected: str) -> UnreadableInput:
     line = (separator or " ").join(row)[:40]
-    return UnreadableInput(f"line {number} reads {line!r}, where {expected}.", "Put # before lines that are comments.")
+    return UnreadableInput(f"line {number} reads {line!r}, where {expected}.", MEND_LINE)

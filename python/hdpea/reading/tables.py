@@ -15,6 +15,9 @@ UNIT_SHARE = 0.95
 """Share of rows of length 1 (or 0) from which three columns are taken for normals."""
 
 
+MEND_LINE = "Correct the line or delete it; put # before lines that are comments."
+
+
 def parse_table(lines: Sequence[str], first_line: int = 1, width: int | None = None) -> NDArray[np.float64]:
     """Read lines of numbers separated by blanks as (n, c) float64; blank lines do not count.
 
@@ -51,7 +54,7 @@ def _first_bad(lines: Sequence[str], first_line: int, width: int) -> UnreadableI
         if tokens and not (len(tokens) == width and all(map(is_number, tokens))):
             return UnreadableInput(
                 f"line {number} reads {line.strip()[:40]!r}, where {width} numbers are expected.",
-                "Put # before lines that are comments.",
+                MEND_LINE,
             )
     return UnreadableInput("it is not a table of numbers.")
 

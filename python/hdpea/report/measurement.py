@@ -97,4 +97,6 @@ def missed_targets(mesh: Mesh, facts: MeshFacts, options: MeshingOptions) -> Ite
     # What closes a wide gap is a guess, and may lie in what it closes.
     if not options.watertight and facts.self_intersections > MOST_CUT * len(mesh.faces):
         count = f"{facts.self_intersections:,} pairs of {len(mesh.faces):,} faces cut others"
-        yield f"{count}: the points are too few for what they show, or on no surface."
+        collapsed = mesh.statistics.get("edges_collapsed", 0) > 0
+        why = "so few cannot show it; ask for more" if collapsed else "the points are too few for it, or on no surface"
+        yield f"{count}: {why}."

@@ -91,7 +91,7 @@ class Journal:
     choices
         Every value that was chosen automatically.
     meshing
-        T3, T12, refused triangles, holes and so on, by name.
+        T3, T12, refused triangles, holes, the share of the area that fills these and so on, by name.
     levels
         The coarser levels of the mesh, finest first.
     notes

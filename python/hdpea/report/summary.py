@@ -9,6 +9,9 @@ from hdpea.options.choice import Choice
 from hdpea.report.achieved_error import AchievedError
 from hdpea.report.report import Distances, MeshFacts, Report
 
+MUCH_FILLED = 0.005
+"""Share of the area from which on it is said that holes were filled: less is what cells leave open between points."""
+
 
 def summarize(report: Report, where: str, verbose: bool = False) -> str:
     """Return what came out, how good it is and `where` it is: three lines, after what is unusual, a line each.
@@ -23,7 +26,7 @@ def summarize(report: Report, where: str, verbose: bool = False) -> str:
 
 def outcome(report: Report) -> Iterator[str]:
     """Yield what came out, and how good it is; a line each."""
-    yield _mesh(report.mesh)
+    yield _mesh(report.mesh) + _filled(report.meshing.get("area_filled", 0))
     yield _distances(report.distances) + _error(report.error)
 
 
@@ -46,6 +49,10 @@ def _mesh(mesh: MeshFacts) -> str:
     if mesh.self_intersections:
         facts.append(_count(mesh.self_intersections, "self-intersection", "self-intersections"))
     return "mesh: " + ", ".join(facts)
+
+
+def _filled(share: float) -> str:
+    return f"; {share:.1%} of the area fills holes, where there are no points" if share > MUCH_FILLED else ""
 
 
 def _count(number: int, one: str, many: str) -> str:

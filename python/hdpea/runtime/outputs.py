@@ -37,7 +37,8 @@ def check_output(path: Path, extensions: Collection[str]) -> None:
     """
     if path.suffix.lower() not in extensions:
         listed = ", ".join(extensions)
-        raise UsageError(f"Cannot write {path}: its extension is not one of {listed}.", "The extension is the format.")
+        hint = f"The extension is the format: {path.with_suffix(next(iter(extensions))).name}, say."
+        raise UsageError(f"Cannot write {path}: its extension is not one of {listed}.", hint)
     try:
         earlier = _status(path)
     except OSError as error:
