@@ -28,7 +28,8 @@ from hdpea.evaluation.normalization import DIAGONAL, LONGEST_SIDE
 from hdpea.evaluation.options import EvaluationOptions
 from hdpea.evaluation.scores import Evaluation
 from hdpea.evaluation.truth import truth_of_mesh
-from hdpea.reading.triangle_mesh import TriangleMesh, read_triangle_mesh
+from hdpea.geometry.triangles import TriangleMesh
+from hdpea.reading.triangle_mesh import read_triangle_mesh
 
 SEEDS = 3
 REDUCTION = 0.8

@@ -65,14 +65,20 @@ class Reconstruction:
     texture: Texture | None = None
     levels: tuple[Level, ...] = ()
 
-    def write(self, path: str | Path) -> None:
+    def write(self, path: str | Path, *, up: str | None = None, force: bool = False) -> None:
         """Write the mesh with its attributes, its texture and where it lies, as ``hdpea.write_mesh`` does.
 
         Its levels are written beside it, without the texture: those of mesh.obj are mesh.lod1.obj and so on.
+
+        Raises
+        ------
+        UsageError
+            As ``hdpea.write_mesh`` does; no file that is not a mesh of hdpea's is replaced, unless by `force`.
         """
-        write_mesh(path, self.vertices, self.faces, self.attributes, self.crs, self.texture)
+        write_mesh(path, self.vertices, self.faces, self.attributes, self.crs, self.texture, up=up, force=force)
         for number, level in enumerate(self.levels, start=1):
-            write_mesh(level_path(Path(path), number), level.vertices, level.faces, level.attributes, self.crs)
+            beside = level_path(Path(path), number)
+            write_mesh(beside, level.vertices, level.faces, level.attributes, self.crs, up=up, force=force)
 
     def to_trimesh(self) -> trimesh.Trimesh:
         """Return it with colours, the other attributes as ``vertex_attributes``."""

@@ -17,8 +17,8 @@ from hdpea.dataset.normal_estimation import estimated_normals
 from hdpea.dataset.options import DatasetOptions, SamplingOptions
 from hdpea.dataset.sample import Sample
 from hdpea.dataset.sample_generation import draw_points
+from hdpea.geometry.triangles import TriangleMesh
 from hdpea.geometry.unit_frame import UnitFrame
-from hdpea.reading.triangle_mesh import TriangleMesh
 from hdpea.runtime.outputs import replacing
 from hdpea.writing.meshes import point_ply
 

@@ -7,7 +7,7 @@ import time
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from hdpea.reading.triangle_mesh import TriangleMesh
+from hdpea.geometry.triangles import TriangleMesh
 from hdpea.runtime.clock import cpu_seconds, peak_of_programs_bytes, peak_resident_bytes
 
 

@@ -15,7 +15,7 @@ from hdpea.dataset.sources import Source
 from hdpea.evaluation.evaluation import evaluate
 from hdpea.evaluation.options import EvaluationOptions
 from hdpea.evaluation.truth import Truth
-from hdpea.reading.triangle_mesh import TriangleMesh
+from hdpea.geometry.triangles import TriangleMesh
 
 
 @dataclass

@@ -10,8 +10,8 @@ from tempfile import TemporaryDirectory
 import numpy as np
 from numpy.typing import NDArray
 
+from hdpea.geometry.triangles import TriangleMesh
 from hdpea.pictures.picture import Camera, draw_mesh
-from hdpea.reading.triangle_mesh import TriangleMesh
 
 SIZE = (512, 512)
 """Pixels of a picture."""

@@ -13,9 +13,9 @@ from numpy.typing import NDArray
 from hdpea import _core
 from hdpea.evaluation.normalization import LONGEST_SIDE
 from hdpea.geometry.thinning import thinned
+from hdpea.geometry.triangles import TriangleMesh
 from hdpea.pictures.colors import as_bytes
 from hdpea.pictures.picture import Camera, draw_mesh, draw_points
-from hdpea.reading.triangle_mesh import TriangleMesh
 from hdpea.surface.normals import oriented_surface
 
 SIZE = (560, 560)

@@ -15,7 +15,7 @@ from hdpea.benchmark.scene import Scene, SurfaceScene
 from hdpea.benchmark.suite import SuiteInput
 from hdpea.dataset.surface_file import read_surface
 from hdpea.evaluation.truth import Truth, truth_of_mesh
-from hdpea.reading.triangle_mesh import TriangleMesh
+from hdpea.geometry.triangles import TriangleMesh
 
 
 @dataclass

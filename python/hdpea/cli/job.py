@@ -30,6 +30,7 @@ class Job:
     dropped: Path | None = None
     picture: Path | None = None
     page: Path | None = None
+    up: str | None = None
 
     def outputs(self) -> list[tuple[Path, str]]:
         """Return the files that are to be written, and the kind of each."""
@@ -121,7 +122,7 @@ def make_mesh(job: Job, progress: ProgressCallback | None) -> Report:
     result.report.begin_with(", ".join(sources), clock)
     tell(progress, "writing", 0.0)
     with result.report.clock.stage("writing"):
-        _write_mesh(job.destination, result)
+        _write_mesh(job, result)
     if job.report:
         result.report.write(job.report)
     if job.dropped:
@@ -131,30 +132,31 @@ def make_mesh(job: Job, progress: ProgressCallback | None) -> Report:
     if job.picture:
         from hdpea.pictures.camera import mean_sight
         from hdpea.pictures.picture import Camera, draw_mesh
+        from hdpea.writing.attributes import colors_of
 
         tell(progress, "picture", 0.0)
-        camera = Camera.before(result.vertices, result.faces, mean_sight(cloud.points, cloud.sensors()))
-        draw_mesh(job.picture, result.vertices, result.faces, camera=camera)
+        sight = mean_sight(cloud.points, cloud.sensors())
+        camera = Camera.before(result.vertices, result.faces, sight, job.up)
+        colors = colors_of(result.attributes)
+        draw_mesh(job.picture, result.vertices, result.faces, camera=camera, colors=colors)
     if job.page:
         from hdpea.report.page import write_result_page
 
         tell(progress, "page", 0.0)
         mesh, title = (result.vertices, result.faces), ", ".join(Path(each).name for each in sources)
-        write_result_page(job.page, title, mesh, cloud, result.report, result.attributes)
+        write_result_page(job.page, title, mesh, cloud, result.report, result.attributes, job.up)
     return result.report
 
 
-def _write_mesh(destination: Destination, result: Reconstruction) -> None:
-    from hdpea.writing.meshes import level_path, mesh_content, write_mesh
+def _write_mesh(job: Job, result: Reconstruction) -> None:
+    from hdpea.writing.meshes import mesh_content
 
-    mesh = result.vertices, result.faces, result.attributes, result.crs, result.texture
+    destination = job.destination
     if destination.output is not None:
-        write_mesh(destination.output, *mesh)
-        for number, level in enumerate(result.levels, start=1):
-            path = level_path(destination.output, number)
-            write_mesh(path, level.vertices, level.faces, level.attributes, result.crs)
+        result.write(destination.output, up=job.up, force=True)  # the command has asked before the work
         return
-    content, _ = mesh_content(destination.extension, *mesh)
+    mesh = result.vertices, result.faces, result.attributes, result.crs, result.texture
+    content, _ = mesh_content(destination.extension, *mesh, up=job.up)
     sys.stdout.buffer.write(content)
     sys.stdout.buffer.flush()
 

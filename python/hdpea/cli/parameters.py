@@ -17,6 +17,7 @@ from hdpea.options.classes import Classes
 from hdpea.options.lengths import Length
 from hdpea.options.position import Position
 from hdpea.options.settings import Setting, options_from, settings
+from hdpea.options.upright import UP_AXES
 
 Decorated = TypeVar("Decorated", bound=Callable[..., Any])
 
@@ -132,6 +133,14 @@ class GroupedCommand(click.Command):
             with formatter.section(group):
                 formatter.write_dl(records)
 
+
+up_option = click.option(
+    "--up",
+    cls=GroupedOption,
+    type=click.Choice(UP_AXES),
+    help="axis that is up in a GLB, picture or page: z, y, or -y as before a depth camera; default: by the shape, "
+    "z if it does not show",
+)
 
 quiet_option = click.option("--quiet", cls=GroupedOption, is_flag=True, help="say nothing but errors")
 

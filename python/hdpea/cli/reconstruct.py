@@ -24,6 +24,7 @@ from hdpea.cli.parameters import (
     force_option,
     quiet_option,
     setting_options,
+    up_option,
 )
 from hdpea.errors import HdpeaError, UsageError
 from hdpea.runtime.marks import check_replaceable, is_marked
@@ -73,6 +74,7 @@ Of several meshes, the gravest: 1, 4, 3, 2, then 5.
 @click.option(
     "--page", cls=GroupedOption, type=PATH, help="show mesh and points as an HTML file, for any browser, offline"
 )
+@up_option
 @config_option
 @force_option
 @click.option("--json", "as_json", cls=GroupedOption, is_flag=True, help="print one line of JSON for each mesh")
@@ -93,6 +95,7 @@ def command(
     dropped: Path | None,
     picture: Path | None,
     page: Path | None,
+    up: str | None,
     force: bool,
     as_json: bool,
     verbose: bool,
@@ -118,7 +121,8 @@ def command(
     if out_dir is not None:
         files = _without_own(files, quiet)
     wanted = [
-        Job(each, options, report, dropped, picture, page) for each in destinations(files, out_dir, merge, mesh_format)
+        Job(each, options, report, dropped, picture, page, up)
+        for each in destinations(files, out_dir, merge, mesh_format)
     ]
     if as_json and wanted[0].destination.output is None:
         raise UsageError("Standard output is for the mesh or for `as_json`, not for both.", "Give a `report` instead.")

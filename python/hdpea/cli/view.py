@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from hdpea.cli.parameters import PATH, GroupedCommand, GroupedOption, force_option
+from hdpea.cli.parameters import PATH, GroupedCommand, GroupedOption, force_option, up_option
 from hdpea.errors import UnreadableInput
 from hdpea.runtime.marks import check_replaceable
 from hdpea.runtime.outputs import check_distinct, check_output
@@ -35,8 +35,9 @@ Exit codes: 0 ok, 1 internal error, 2 usage, 3 unreadable input, 130 interrupted
 @click.command(cls=GroupedCommand, epilog=EPILOG, no_args_is_help=True, short_help="Look at meshes and clouds.")
 @click.argument("sources", metavar="FILE...", type=PATH, nargs=-1, required=True)
 @click.option("--page", cls=GroupedOption, type=PATH, help="write the page here, and do not open it")
+@up_option
 @force_option
-def command(*, sources: tuple[Path, ...], page: Path | None, force: bool) -> None:
+def command(*, sources: tuple[Path, ...], page: Path | None, up: str | None, force: bool) -> None:
     """Show meshes and point clouds in the browser: turned, coloured, side by side.
 
     FILE is a mesh (PLY, OBJ, STL, OFF, GLB, NPZ) or a point cloud, as for reconstruct. Several are
@@ -53,7 +54,7 @@ def command(*, sources: tuple[Path, ...], page: Path | None, force: bool) -> Non
     shapes = list(_shapes(sources))
     title, beside = ", ".join(each.name for each in sources), 1 if len(shapes) > 1 else None
     figures = list(_figures(shapes))
-    write_page(written, title, shapes, figures, coloring=DISTANCE if figures else COLOR, beside=beside)
+    write_page(written, title, shapes, figures, coloring=DISTANCE if figures else COLOR, beside=beside, up=up)
     click.echo(f"{written}: {written.stat().st_size / 1e6:.1f} MB; it opens in any browser", err=True)
     if page is None:
         click.launch(str(written))
@@ -98,6 +99,9 @@ def _attributes(path: Path, vertices: NDArray[np.float64]) -> Mapping[str, NDArr
     import numpy as np
 
     from hdpea.reading import read_points
+    from hdpea.reading.glb import colors_at
 
+    if path.suffix.lower() == ".glb":
+        return colors_at(path, vertices)
     cloud = read_points(path) if path.suffix.lower() == ".ply" else None
     return cloud.attributes if cloud is not None and np.array_equal(cloud.points, vertices) else {}

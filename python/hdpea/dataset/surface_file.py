@@ -9,7 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hdpea.errors import CannotReconstruct, UnreadableInput
-from hdpea.reading.triangle_mesh import SURFACE_HINT, TriangleMesh, parse_triangle_mesh
+from hdpea.geometry.triangles import TriangleMesh
+from hdpea.reading.triangle_mesh import SURFACE_HINT, parse_triangle_mesh
 
 
 def read_surface(path: Path) -> TriangleMesh:

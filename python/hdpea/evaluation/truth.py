@@ -14,9 +14,9 @@ from hdpea.evaluation.curvature_metric import SAMPLES, CurvatureMetric, curvatur
 from hdpea.evaluation.distances import SampleDistances, distances_between
 from hdpea.evaluation.options import EvaluationOptions
 from hdpea.geometry.sampling import sample_surface
-from hdpea.geometry.triangles import mesh_area
+from hdpea.geometry.triangles import TriangleMesh, mesh_area
 from hdpea.reading import read_points
-from hdpea.reading.triangle_mesh import SURFACE_FORMATS, TriangleMesh, parse_triangle_mesh, read_triangle_mesh
+from hdpea.reading.triangle_mesh import SURFACE_FORMATS, parse_triangle_mesh, read_triangle_mesh
 
 Rows = NDArray[np.float64]
 

@@ -6,6 +6,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+TriangleMesh = tuple[NDArray[np.float64], NDArray[np.int64]]
+"""Vertices (v, 3) and faces (f, 3)."""
+
 
 def area_vectors(vertices: NDArray[np.float64], faces: NDArray[np.int64]) -> NDArray[np.float64]:
     """Return the normals (f, 3) of faces (f, 3) of `vertices` (v, 3), as long as the faces' areas."""

@@ -24,6 +24,9 @@ CORRECTIONS = 1
 On a smoothly painted sphere of 20,000 points and 2,500 vertices, the 95th percentile of the error of colours is 2.6,
 1.5 and 1.0 of 255 after 0, 1 and 3 corrections; with noise of 5 % of white on each point it is 7.2, 8.6 and 10.4."""
 
+NEAREST = 0.5
+"""Weight from which on a point is nearest to one corner of its face."""
+
 Rows = NDArray[np.float64]
 
 
@@ -117,7 +120,16 @@ class _Feet:
         for _ in range(1 + CORRECTIONS):
             missed = offsets - np.einsum("nk,nk->n", self.weights, means[self.corners])
             means += self._sums(weights * missed[:, None]) / np.where(totals > 0, totals, 1)
-        return self._completed(origin + means, totals > 0, values, known)
+        return self._completed(origin + self._in_range(means, offsets, known), totals > 0, values, known)
+
+    def _in_range(self, means: Rows, values: Rows, known: NDArray[np.bool_]) -> Rows:
+        """Return means (v,) within what the points nearest to each vertex have: corrections overshoot fine detail."""
+        row, side = np.nonzero((self.weights > NEAREST) & known[:, None])
+        corner = self.corners[row, side]
+        least, most = np.full(len(means), np.inf), np.full(len(means), -np.inf)
+        np.minimum.at(least, corner, values[row])
+        np.maximum.at(most, corner, values[row])
+        return np.where(least <= most, means.clip(least, most), means)
 
     def majorities(self, values: NDArray[Any]) -> NDArray[Any]:
         """Return of values (n, c) those of most weight (v, c); of equal ones the least."""

@@ -39,6 +39,7 @@ def write_page(
     coloring: str = "",
     beside: int | None = None,
     sight: NDArray[np.float64] | None = None,
+    up: str | None = None,
 ) -> None:
     """Write a page on which shapes can be turned, coloured and compared, that needs nothing but a browser with WebGL.
 
@@ -58,6 +59,8 @@ def write_page(
         Index of the shape that is shown beside the first; by default none.
     sight
         (3,), from where the surface was seen, as ``mean_sight`` returns it.
+    up
+        The axis that is up, by its name; default: the one that the first shape shows.
 
     Raises
     ------
@@ -67,13 +70,13 @@ def write_page(
     check_output(path, PAGE_FORMATS)
     shapes = with_common_ranges(tuple(shapes))
     box = Box(shapes)
-    view = _view(shapes[0], sight)
-    up = abs(view[1]).argmax()
+    view = _view(shapes[0], sight, up)
+    axis = abs(view[1]).argmax()
     scene = {
         "shapes": [encoded_shape(each, box) for each in shapes],
         "origin": (-box.extent / 2).tolist(),
         "extent": box.extent.tolist(),
-        "up": (np.sign(view[1, up]) * np.eye(3)[up]).tolist(),
+        "up": (np.sign(view[1, axis]) * np.eye(3)[axis]).tolist(),
         "eye": view[2].tolist(),
         "coloring": coloring,
         "beside": "" if beside is None else str(beside),
@@ -102,11 +105,11 @@ def _filled(values: dict[str, str]) -> str:
     return first + "".join(values[name] + text for name, text in named)
 
 
-def _view(shape: Shape, sight: NDArray[np.float64] | None) -> NDArray[np.float64]:
+def _view(shape: Shape, sight: NDArray[np.float64] | None, up: str | None) -> NDArray[np.float64]:
     if isinstance(shape, MeshShape):
-        return choose_view(shape.vertices, shape.faces, sight)
+        return choose_view(shape.vertices, shape.faces, sight, up)
     points = positions_of(shape)
-    return choose_view_of_points(points, np.zeros_like(points), sight)
+    return choose_view_of_points(points, np.zeros_like(points), sight, up)
 
 
 def _bytes(color: tuple[float, float, float]) -> list[int]:

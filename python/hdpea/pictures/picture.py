@@ -134,10 +134,14 @@ class Camera:
 
     @classmethod
     def before(
-        cls, vertices: NDArray[np.float64], faces: NDArray[np.int64], sight: NDArray[np.float64] | None = None
+        cls,
+        vertices: NDArray[np.float64],
+        faces: NDArray[np.int64],
+        sight: NDArray[np.float64] | None = None,
+        up: str | None = None,
     ) -> Camera:
         """Look at a mesh (v, 3), (f, 3) obliquely, from the side that was scanned, as ``choose_view`` says."""
-        return cls._towards(vertices, choose_view(vertices, faces, sight))
+        return cls._towards(vertices, choose_view(vertices, faces, sight, up))
 
     @classmethod
     def before_points(cls, points: NDArray[np.float64], normals: NDArray[np.float64]) -> Camera:

@@ -10,11 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hdpea.errors import UnreadableInput
+from hdpea.geometry.triangles import TriangleMesh
 from hdpea.reading import DAMAGE, read_bytes
 from hdpea.reading.glb import placed_in_world
-
-TriangleMesh = tuple[NDArray[np.float64], NDArray[np.int64]]
-"""Vertices (v, 3) and faces (f, 3)."""
 
 SURFACE_FORMATS = (".ply", ".obj", ".stl", ".off", ".glb", ".npz")
 SURFACE_HINT = f"Meshes are {', '.join(each[1:].upper() for each in SURFACE_FORMATS)} (arrays vertices and facets)."
@@ -78,4 +76,4 @@ def _parse(data: bytes, suffix: str) -> TriangleMesh:
     options = {"skip_materials": True} if suffix == ".obj" else {}
     mesh = trimesh.load_mesh(io.BytesIO(data), file_type=suffix[1:], process=False, **options)
     vertices, faces = np.asarray(mesh.vertices, np.float64), np.asarray(mesh.faces, np.int64)
-    return (placed_in_world(data, vertices) if suffix == ".glb" else vertices), faces
+    return placed_in_world(data, vertices, faces) if suffix == ".glb" else (vertices, faces)

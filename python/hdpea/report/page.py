@@ -25,6 +25,7 @@ def write_result_page(
     cloud: PointCloud,
     report: Report,
     attributes: Mapping[str, NDArray[Any]] | None = None,
+    up: str | None = None,
 ) -> None:
     """Write a page of a reconstruction, to be turned in any browser, offline.
 
@@ -38,6 +39,8 @@ def write_result_page(
         As it was read; of many points, some are shown.
     attributes
         Of the vertices, arrays (v,) or (v, c) by name.
+    up
+        The axis that is up; default: the one that the shape shows.
 
     Raises
     ------
@@ -49,7 +52,7 @@ def write_result_page(
         point_shape("points", cloud.points, mesh, cloud.attributes),
     ]
     sight = mean_sight(cloud.points, cloud.sensors())
-    write_page(path, title, shapes, list(_figures(report)), coloring=COLOR, sight=sight)
+    write_page(path, title, shapes, list(_figures(report)), coloring=COLOR, sight=sight, up=up)
 
 
 def _figures(report: Report) -> Iterator[tuple[str, str]]:

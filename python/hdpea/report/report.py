@@ -156,7 +156,7 @@ class Report(Journal):
             "total": asdict(self.clock.total()),
         }
 
-    def write(self, path: Path) -> None:
+    def write(self, path: str | Path) -> None:
         """Write the report as JSON, whole or not at all.
 
         Raises
@@ -164,7 +164,7 @@ class Report(Journal):
         UsageError
             If the file cannot be written.
         """
-        with replacing(path) as partial:
+        with replacing(Path(path)) as partial:
             partial.write_text(json.dumps(self.as_json(), indent=2) + "\n")
 
     def as_json(self) -> dict[str, Any]:

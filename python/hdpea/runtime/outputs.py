@@ -10,6 +10,7 @@ import stat
 import tempfile
 from collections.abc import Collection, Iterable, Iterator
 from contextlib import contextmanager, suppress
+from difflib import get_close_matches
 from pathlib import Path
 
 from hdpea.errors import UsageError
@@ -37,7 +38,8 @@ def check_output(path: Path, extensions: Collection[str]) -> None:
     """
     if path.suffix.lower() not in extensions:
         listed = ", ".join(extensions)
-        hint = f"The extension is the format: {path.with_suffix(next(iter(extensions))).name}, say."
+        near = get_close_matches(path.suffix.lower(), extensions, n=1) or list(extensions)
+        hint = f"The extension is the format: {path.with_suffix(near[0]).name}, say."
         raise UsageError(f"Cannot write {path}: its extension is not one of {listed}.", hint)
     try:
         earlier = _status(path)

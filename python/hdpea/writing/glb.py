@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hdpea.geometry.color import linear_of_srgb
+from hdpea.geometry.smooth_fans import split_at_creases
 from hdpea.geometry.texture import Texture
 from hdpea.geometry.triangles import vertex_normals
 from hdpea.geometry.unit_frame import diagonal_of
@@ -19,8 +20,12 @@ from hdpea.geometry.unit_frame import diagonal_of
 FLOAT32_LEAST, FLOAT32_MOST = 1e-30, 1e30
 """Sizes of meshes between which single precision has all its digits for their details, too."""
 
-GLTF_FROM_WORLD = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, -1.0, 0.0]])
-"""glTF has y up and x to the right; scans have z up. Blender and others turn it back."""
+GLTF_FROM_WORLD = {
+    "z": np.array([[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, -1.0, 0.0]]),
+    "y": np.eye(3),
+    "-y": np.diag([1.0, -1.0, -1.0]),
+}
+"""glTF has y up and x to the right; by what is up in the world. Blender and others turn it back to z."""
 
 MATERIAL: dict[str, Any] = {
     "name": "surface",
@@ -47,7 +52,7 @@ def glb(
     Parameters
     ----------
     vertices
-        (v, 3) with z up, in metres; near the origin, since the file holds single precision.
+        (v, 3) with y up, in metres; near the origin, since the file holds single precision.
     faces
         (f, 3).
     colors
@@ -88,17 +93,21 @@ def _mesh(
     texture: Texture | None,
 ) -> dict[str, Any]:
     """Put the arrays of a mesh into the buffer, and return the mesh."""
-    # A vertex on a seam of the texture occurs several times, with the one normal that it has.
-    rows = slice(None) if texture is None else texture.vertices
-    corners = faces if texture is None else texture.corners
+    # A vertex on a crease has a normal for each side, and occurs as often; and so it does on a seam of the texture.
+    smooth, fans = split_at_creases(vertices, faces)
+    normals = vertex_normals(vertices[smooth], fans)
+    on_seams = faces if texture is None else texture.corners
+    pairs, inverse = np.unique(np.stack([on_seams.ravel(), fans.ravel()], axis=1), axis=0, return_inverse=True)
+    on_seam, fan = pairs.T
+    corners, rows = inverse.reshape(faces.shape), smooth[fan]
     attributes = {
-        "POSITION": buffer.add((vertices @ GLTF_FROM_WORLD.T).astype(np.float32)[rows], bounds=True),
-        "NORMAL": buffer.add((vertex_normals(vertices, faces) @ GLTF_FROM_WORLD.T).astype(np.float32)[rows]),
+        "POSITION": buffer.add(vertices[rows].astype(np.float32), bounds=True),
+        "NORMAL": buffer.add(normals[fan].astype(np.float32)),
     }
     if colors is not None:
         attributes["COLOR_0"] = buffer.add(_linear_16_bit(colors)[rows])
     if texture is not None:
-        attributes["TEXCOORD_0"] = buffer.add(texture.places.astype(np.float32))
+        attributes["TEXCOORD_0"] = buffer.add(texture.places[on_seam].astype(np.float32))
     # The largest number of its type is no index: it would restart the primitive.
     narrow = corners.max() < np.iinfo(np.uint16).max
     indices = buffer.add(corners.ravel().astype(np.uint16 if narrow else np.uint32), indices=True)

@@ -14,10 +14,11 @@ from plyfile import PlyData, PlyElement
 
 from hdpea.errors import UsageError
 from hdpea.geometry.texture import Texture
+from hdpea.runtime.marks import check_replaceable
 from hdpea.runtime.outputs import check_output, replacing
 from hdpea.writing.attributes import colors_of, columns_of
 from hdpea.writing.content import MeshContent
-from hdpea.writing.glb import glb
+from hdpea.writing.glb import GLTF_FROM_WORLD, glb
 from hdpea.writing.marking import marked, save_arrays
 from hdpea.writing.obj import lines, obj, png, write_texture_files
 from hdpea.writing.placement import Placement, loses_digits, write_placement
@@ -46,6 +47,9 @@ def write_mesh(
     attributes: Mapping[str, ArrayLike] | None = None,
     crs: str | None = None,
     texture: Texture | None = None,
+    *,
+    up: str | None = None,
+    force: bool = False,
 ) -> None:
     """Write a triangle mesh as OBJ, PLY, OFF, STL or GLB, by the extension of `path`.
 
@@ -70,16 +74,22 @@ def write_mesh(
     texture
         For OBJ and GLB, which then have no vertex colours. That of ``mesh.obj`` is written beside it, as ``mesh.mtl``
         and ``mesh.texture.png``.
+    up
+        GLB: the axis of the vertices that is up, ``"z"``, ``"y"`` or ``"-y"``, as before a depth camera; default: z
+        where `crs` is known, else the one that the shape shows (``hdpea.geometry.upright``).
+    force
+        Whether a file that is no mesh of hdpea's may be replaced.
 
     Raises
     ------
     UsageError
-        If the file cannot be written, the arrays are no mesh, or the format holds no texture.
+        If the file cannot be written or may not be replaced, the arrays are no mesh, or the format holds no texture.
     """
     path = Path(path)
     check_output(path, MESH_FORMATS)
+    check_replaceable({path: "mesh"}, force)
     extension = path.suffix.lower()
-    content, placement = mesh_content(extension, vertices, faces, attributes, crs, texture, path.stem)
+    content, placement = mesh_content(extension, vertices, faces, attributes, crs, texture, path.stem, up)
     if texture is not None and extension == ".obj":
         write_texture_files(path, texture)
     with replacing(path) as partial:
@@ -95,6 +105,7 @@ def mesh_content(
     crs: str | None = None,
     texture: Texture | None = None,
     name: str = "mesh",
+    up: str | None = None,
 ) -> tuple[bytes, Placement]:
     """Return what ``write_mesh`` writes, for an extension of ``MESH_FORMATS``, and where it stands in the world.
 
@@ -107,7 +118,7 @@ def mesh_content(
     """
     checked_vertices, checked_faces = _checked(vertices, faces)
     columns = columns_of(attributes or {}, len(checked_vertices))
-    placement = Placement.of(checked_vertices, extension, crs)
+    placement = Placement.of(checked_vertices, checked_faces, extension, crs, up)
     check_textured(extension, texture is not None)
     content = MeshContent(checked_vertices, checked_faces, columns, placement, texture, name)
     return marked(MESH_FORMATS[extension](content), extension), placement
@@ -223,10 +234,11 @@ def _stl(content: MeshContent) -> bytes:
 
 
 def _glb(mesh: MeshContent) -> bytes:
-    vertices, told = mesh.vertices - mesh.placement.shift, mesh.placement.as_dict()
+    shifted, extras = mesh.vertices - mesh.placement.shift, mesh.placement.as_dict()
+    turned = shifted @ GLTF_FROM_WORLD[mesh.placement.world_up or "z"].T
     if mesh.texture is None:
-        return glb(vertices, mesh.faces, colors_of(mesh.columns), extras=told)
-    return glb(vertices, mesh.faces, texture=mesh.texture, image=png(mesh.texture), extras=told)
+        return glb(turned, mesh.faces, colors_of(mesh.columns), extras=extras)
+    return glb(turned, mesh.faces, texture=mesh.texture, image=png(mesh.texture), extras=extras)
 
 
 MESH_FORMATS: dict[str, Callable[[MeshContent], bytes]] = {

@@ -13,17 +13,22 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hdpea.geometry.unit_frame import diagonal_of
+from hdpea.geometry.upright import upright_axis
 from hdpea.runtime.marks import is_marked, mark_of
 from hdpea.runtime.outputs import replacing
 
 FLOAT32_LOSS = 1e-6
 """Largest share of the diagonal that a vertex may move by being stored in single precision."""
 
-IN_WORLD = {
-    "z": ["shift[0] + x", "shift[1] + y", "shift[2] + z"],
-    "y": ["shift[0] + x", "shift[1] - z", "shift[2] + y"],
+AS_THEY_ARE = ["shift[0] + x", "shift[1] + y", "shift[2] + z"]
+"""World coordinates of a file's x, y and z, where only a shift lies between."""
+
+OF_GLTF = {
+    "z": ["shift[0] + x", "shift[1] - z", "shift[2] + y"],
+    "y": AS_THEY_ARE,
+    "-y": ["shift[0] + x", "shift[1] - y", "shift[2] - z"],
 }
-"""World coordinates of a file's x, y and z, by which of them is up."""
+"""The same of a GLB, in which y is up, by what is up in the world."""
 
 
 @dataclass(frozen=True)
@@ -35,21 +40,35 @@ class Placement:
     shift
         (3,) in world units: what was subtracted from the coordinates.
     up
-        Which axis of the file is up: y in GLB, else z.
+        Which axis of the file is up, if that is known: y in GLB.
+    world_up
+        Which axis of the world that is, by its name in ``hdpea.geometry.upright``.
     crs
         The coordinate reference system, as WKT or such as EPSG:25832, if it is known.
     """
 
     shift: tuple[float, float, float] = (0.0, 0.0, 0.0)
-    up: str = "z"
+    up: str | None = None
+    world_up: str | None = None
     crs: str | None = None
 
     @classmethod
-    def of(cls, vertices: NDArray[np.float64], extension: str, crs: str | None = None) -> Placement:
-        """Return how a file of this extension, such as ``.glb``, holds vertices (v, 3)."""
+    def of(
+        cls,
+        vertices: NDArray[np.float64],
+        faces: NDArray[np.int64],
+        extension: str,
+        crs: str | None = None,
+        up: str | None = None,
+    ) -> Placement:
+        """Return how a file of this extension, such as ``.glb``, holds a mesh (v, 3), (f, 3).
+
+        `up` is the axis that is up in the world; default: z where the `crs` is known, else what the shape shows.
+        """
         if extension != ".glb":
             return cls(crs=crs)
-        return cls(single_precision_shift(vertices), "y", crs)
+        world_up = up or ("z" if crs is not None or not len(faces) else upright_axis(vertices, faces))
+        return cls(single_precision_shift(vertices), "y", world_up, crs)
 
     def is_worth_a_file(self) -> bool:
         """Say whether a program that reads the mesh alone would not know where it lies."""
@@ -61,9 +80,10 @@ class Placement:
             "generator": mark_of("placement"),
             "crs": self.crs,
             "shift": list(self.shift),
-            "up": self.up,
+            "up": self.up or "z",
+            "world_up": self.world_up or "z",
             "unit": "metre" if self.crs is None else "that of the crs",
-            "world": IN_WORLD[self.up],
+            "world": OF_GLTF[self.world_up] if self.world_up else AS_THEY_ARE,
         }
 
 

@@ -9,8 +9,8 @@ import trimesh
 
 from hdpea.benchmark.rendering import LEAST_ERROR, SIZE, compare_renderings, render, structural_similarity
 from hdpea.errors import UsageError
+from hdpea.geometry.triangles import TriangleMesh
 from hdpea.pictures.picture import Camera, check_drawing
-from hdpea.reading.triangle_mesh import TriangleMesh
 
 
 def ball(subdivisions: int) -> TriangleMesh:

@@ -23,9 +23,9 @@ from hdpea.benchmark.worker import Task, run_method
 from hdpea.cli import run
 from hdpea.dataset.options import DegradationOptions, SampleOptions, ScanOptions
 from hdpea.errors import UsageError
+from hdpea.geometry.triangles import TriangleMesh
 from hdpea.network.weights import write_weights
 from hdpea.reading import read_points
-from hdpea.reading.triangle_mesh import TriangleMesh
 
 Capture = pytest.CaptureFixture[str]
 Failed = Callable[..., str]

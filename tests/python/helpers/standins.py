@@ -5,10 +5,8 @@ from __future__ import annotations
 
 import sys
 import time
-from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from types import ModuleType
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,6 +17,7 @@ from hdpea.reading.cloud import PointCloud
 from hdpea.report.achieved_error import AchievedError
 from hdpea.report.agreement import Agreement
 from hdpea.report.report import Distances, Journal, MeshFacts, Report
+from hdpea.result import Reconstruction
 from hdpea.runtime.progress import ProgressCallback, tell
 
 Array = NDArray[np.float64]
@@ -27,17 +26,6 @@ NO_ERROR = AchievedError(None, 0.0, 0.0, 0.0)
 ONE_TRIANGLE = MeshFacts(
     3, 1, manifold=True, closed=False, components=1, boundary_loops=1, genus=None, self_intersections=0
 )
-
-
-@dataclass
-class Reconstruction:
-    vertices: Array
-    faces: NDArray[np.int64]
-    report: Report
-    attributes: Mapping[str, NDArray[Any]] = field(default_factory=dict)
-    crs: str | None = None
-    texture: None = None
-    levels: tuple[Reconstruction, ...] = ()
 
 
 @dataclass

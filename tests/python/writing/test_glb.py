@@ -14,6 +14,7 @@ from helpers.glb import parts_of, require_validator, validator_messages
 from helpers.meshes import TETRAHEDRON_FACES, tetrahedron
 from numpy.typing import NDArray
 
+from hdpea.errors import UsageError
 from hdpea.geometry.color import linear_of_srgb
 from hdpea.reading.triangle_mesh import parse_triangle_mesh
 from hdpea.writing.meshes import write_mesh
@@ -34,7 +35,7 @@ def written(folder: Path, vertices: NDArray[np.float64], **options: Any) -> Path
 
 def test_y_is_up_and_faces_still_face_out(tmp_path: Path) -> None:
     _, arrays = parts_of(written(tmp_path, tetrahedron()))
-    np.testing.assert_allclose(arrays["POSITION"][3], [0, 1, 0])  # the one with z = 1
+    np.testing.assert_allclose(arrays["POSITION"][9:], [[0, 1, 0]] * 3)  # the one with z = 1, of three faces
     volume = trimesh.Trimesh(arrays["POSITION"], arrays["indices"].reshape(-1, 3), process=False).volume
     assert volume == pytest.approx(1 / 6)
 
@@ -49,8 +50,51 @@ def test_normals_are_unit_and_point_out(tmp_path: Path) -> None:
 def test_colours_are_linear_light(tmp_path: Path) -> None:
     _, arrays = parts_of(written(tmp_path, tetrahedron(), attributes=COLORS))
     srgb = np.stack(list(COLORS.values()), axis=1) / 255
-    np.testing.assert_allclose(arrays["COLOR_0"][:, :3] / 65535, linear_of_srgb(srgb), atol=1e-5)
+    of_each_face = np.repeat(linear_of_srgb(srgb), 3, axis=0)
+    np.testing.assert_allclose(arrays["COLOR_0"][:, :3] / 65535, of_each_face, atol=1e-5)
     assert (arrays["COLOR_0"][:, 3] == 65535).all()
+
+
+def test_vertices_are_split_at_creases_alone_and_read_back_whole(tmp_path: Path) -> None:
+    cube, sphere = trimesh.creation.box(), trimesh.creation.icosphere(subdivisions=2)
+    for mesh, expected in ((cube, 24), (sphere, len(sphere.vertices))):
+        write_mesh(tmp_path / "mesh.glb", mesh.vertices, mesh.faces)
+        _, arrays = parts_of(tmp_path / "mesh.glb")
+        assert len(arrays["POSITION"]) == expected
+        vertices, faces = parse_triangle_mesh(tmp_path / "mesh.glb")
+        np.testing.assert_allclose(vertices, mesh.vertices, atol=1e-6)
+        np.testing.assert_array_equal(faces, mesh.faces)
+
+
+def test_normals_at_creases_are_those_of_the_sides(tmp_path: Path) -> None:
+    cube = trimesh.creation.box()
+    write_mesh(tmp_path / "mesh.glb", cube.vertices, cube.faces)
+    _, arrays = parts_of(tmp_path / "mesh.glb")
+    np.testing.assert_allclose(abs(arrays["NORMAL"]).max(axis=1), 1, atol=1e-6)
+
+
+@pytest.mark.parametrize("up", ["z", "y", "-y"])
+def test_what_is_up_becomes_y_and_is_read_back(up: str, tmp_path: Path) -> None:
+    path = written(tmp_path, tetrahedron(), up=up)
+    tip = {"z": [0, 1, 0], "y": [0, 0, 1], "-y": [0, 0, -1]}[up]
+    np.testing.assert_allclose(parts_of(path)[1]["POSITION"][9], tip)
+    np.testing.assert_allclose(parse_triangle_mesh(path)[0], tetrahedron(), atol=1e-6)
+
+
+def test_a_shape_that_stands_on_its_y_side_is_not_turned(tmp_path: Path) -> None:
+    cone = trimesh.creation.cone(radius=0.5, height=2)
+    standing = cone.vertices[:, [1, 2, 0]]
+    write_mesh(tmp_path / "mesh.glb", standing, cone.faces)
+    positions = parts_of(tmp_path / "mesh.glb")[1]["POSITION"]
+    assert np.ptp(positions[:, 1]) == pytest.approx(2)
+
+
+def test_no_file_of_others_is_replaced_unless_forced(tmp_path: Path) -> None:
+    (tmp_path / "mesh.glb").write_text("somebody else's")
+    with pytest.raises(UsageError, match="no mesh that hdpea made"):
+        written(tmp_path, tetrahedron())
+    written(tmp_path, tetrahedron(), force=True)
+    written(tmp_path, tetrahedron())
 
 
 def test_what_needs_no_shift_has_none_and_no_file_beside_it(tmp_path: Path) -> None:
@@ -69,7 +113,7 @@ def test_a_georeferenced_mesh_is_shifted_and_the_shift_is_told(tmp_path: Path) -
     assert beside["crs"] == "EPSG:25832"
     world = {"shift": beside["shift"], **dict(zip("xyz", arrays["POSITION"].astype(float).T, strict=True))}
     found = np.stack([eval(axis, {}, world) for axis in beside["world"]], axis=1)  # noqa: S307 it is our own
-    np.testing.assert_allclose(found, vertices, rtol=0, atol=1e-7)
+    np.testing.assert_allclose(found, np.repeat(vertices, 3, axis=0), rtol=0, atol=1e-7)
     np.testing.assert_allclose(parse_triangle_mesh(tmp_path / "mesh.glb")[0], vertices, rtol=0, atol=1e-7)
 
 

@@ -28,12 +28,12 @@ from hdpea.benchmark.methods.options import (
     ReducedOptions,
 )
 from hdpea.errors import UsageError
+from hdpea.geometry.triangles import TriangleMesh
 from hdpea.options import Options
 from hdpea.options.classes import Classes
 from hdpea.options.lengths import Length
 from hdpea.options.position import Position
 from hdpea.options.settings import options_from, settings
-from hdpea.reading.triangle_mesh import TriangleMesh
 
 
 @dataclass(frozen=True)

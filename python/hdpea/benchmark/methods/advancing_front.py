@@ -10,7 +10,7 @@ from CGAL.CGAL_Point_set_3 import Point_set_3
 
 from hdpea.benchmark.methods import Cloud
 from hdpea.benchmark.methods.options import AdvancingFrontOptions
-from hdpea.reading.triangle_mesh import TriangleMesh
+from hdpea.geometry.triangles import TriangleMesh
 
 
 def surface(cloud: Cloud, options: AdvancingFrontOptions) -> TriangleMesh:

@@ -10,7 +10,7 @@ from hdpea import _core
 from hdpea.benchmark.methods import Cloud
 from hdpea.benchmark.methods.meshlab import current_mesh, with_points
 from hdpea.benchmark.methods.options import BallPivotingOptions
-from hdpea.reading.triangle_mesh import TriangleMesh
+from hdpea.geometry.triangles import TriangleMesh
 
 
 def surface(cloud: Cloud, options: BallPivotingOptions) -> TriangleMesh:

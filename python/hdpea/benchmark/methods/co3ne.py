@@ -7,7 +7,7 @@ import numpy as np
 
 from hdpea.benchmark.methods import Cloud, geogram
 from hdpea.benchmark.methods.options import Co3neOptions
-from hdpea.reading.triangle_mesh import TriangleMesh
+from hdpea.geometry.triangles import TriangleMesh
 
 
 def surface(cloud: Cloud, options: Co3neOptions) -> TriangleMesh:

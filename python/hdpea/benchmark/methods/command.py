@@ -10,7 +10,8 @@ from tempfile import TemporaryDirectory
 from hdpea.benchmark.methods import Cloud
 from hdpea.benchmark.methods.options import CommandOptions
 from hdpea.errors import CannotReconstruct, UsageError
-from hdpea.reading.triangle_mesh import TriangleMesh, read_triangle_mesh
+from hdpea.geometry.triangles import TriangleMesh
+from hdpea.reading.triangle_mesh import read_triangle_mesh
 from hdpea.writing.meshes import point_ply
 
 

@@ -7,7 +7,8 @@ from pathlib import Path
 
 from hdpea.benchmark.methods import Cloud
 from hdpea.benchmark.methods.options import FolderOptions
-from hdpea.reading.triangle_mesh import TriangleMesh, read_triangle_mesh
+from hdpea.geometry.triangles import TriangleMesh
+from hdpea.reading.triangle_mesh import read_triangle_mesh
 
 
 def reconstruct(cloud: Cloud, vertices: int, options: FolderOptions) -> TriangleMesh:

@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 
 from hdpea.benchmark.methods import Cloud
 from hdpea.errors import UsageError
-from hdpea.reading.triangle_mesh import TriangleMesh
+from hdpea.geometry.triangles import TriangleMesh
 from hdpea.runtime.outputs import replacing
 
 SOURCE = Path(__file__).with_suffix(".cpp")

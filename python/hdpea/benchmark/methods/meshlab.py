@@ -9,7 +9,7 @@ import numpy as np
 import pymeshlab
 
 from hdpea.benchmark.methods import Cloud
-from hdpea.reading.triangle_mesh import TriangleMesh
+from hdpea.geometry.triangles import TriangleMesh
 
 
 def with_points(cloud: Cloud) -> Any:

@@ -11,8 +11,8 @@ from hdpea import _core
 from hdpea.benchmark.methods.options import ATTEMPTS, TOLERANCE
 from hdpea.evaluation.curvature_metric import SAMPLES, curvature_metric
 from hdpea.geometry.sampling import sample_surface
-from hdpea.geometry.triangles import mesh_area
-from hdpea.reading.triangle_mesh import TriangleMesh, drop_unused
+from hdpea.geometry.triangles import TriangleMesh, mesh_area
+from hdpea.reading.triangle_mesh import drop_unused
 
 GRADATION = 2.3
 """Largest ratio of lengths of adjacent edges; with mmg's default of 1.3, small numbers of vertices are out of reach."""

@@ -7,8 +7,8 @@ from dataclasses import replace
 
 from hdpea import reconstruct as reconstruct_points
 from hdpea.benchmark.methods import Cloud
+from hdpea.geometry.triangles import TriangleMesh
 from hdpea.options import Options
-from hdpea.reading.triangle_mesh import TriangleMesh
 
 
 def reconstruct(cloud: Cloud, vertices: int, options: Options) -> TriangleMesh:

@@ -8,7 +8,8 @@ import numpy as np
 from hdpea.benchmark.methods import Cloud
 from hdpea.benchmark.methods.meshlab import current_mesh, with_points
 from hdpea.benchmark.methods.options import PoissonOptions
-from hdpea.reading.triangle_mesh import TriangleMesh, drop_unused
+from hdpea.geometry.triangles import TriangleMesh
+from hdpea.reading.triangle_mesh import drop_unused
 
 
 def surface(cloud: Cloud, options: PoissonOptions) -> TriangleMesh:

@@ -8,7 +8,8 @@ import warnings
 import numpy as np
 
 from hdpea.benchmark.methods.options import ATTEMPTS, TOLERANCE
-from hdpea.reading.triangle_mesh import TriangleMesh, drop_unused
+from hdpea.geometry.triangles import TriangleMesh
+from hdpea.reading.triangle_mesh import drop_unused
 
 CLUSTERED_FROM = 20
 """Vertices per cluster for pyacvd: a coarser mesh is subdivided first, as its documentation advises."""
