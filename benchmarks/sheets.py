@@ -1,81 +1,108 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Pictures of clouds beside their meshes, all from one viewpoint, and a sheet of many."""
+"""Pictures of meshes and points as panels, and panels in rows on one sheet, each below its caption."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 from tempfile import TemporaryDirectory
+from typing import TypeAlias
 
 import numpy as np
-from gallery_measures import Known
 from numpy.typing import NDArray
-from PIL import Image, ImageDraw
+from PIL import Image, ImageDraw, ImageFont
 
 from hdpea.pictures.picture import Camera, draw_mesh, draw_points
 
-Mesh = tuple[NDArray[np.float64], NDArray[np.int64]]
+Mesh: TypeAlias = tuple[NDArray[np.float64], NDArray[np.int64]]
+Panel: TypeAlias = tuple[str, Image.Image | None]
+"""A caption and a picture; None leaves its place white."""
 
-PANEL = (640, 480)
-"""Width and height of each, in pixels."""
-
-ON_SHEET = (200, 150)
-"""The same on the sheet."""
-
-COLUMNS = 2
-"""Clouds beside each other on the sheet."""
-
-LARGEST = 400_000
-"""Bytes of a sheet."""
+Size: TypeAlias = tuple[int, int]
+"""Width and height, in pixels."""
 
 LIGHT = np.array([-0.4, 0.6, 0.7])
 """Direction towards the light, in the frame of the view."""
 
-
-def draw_cloud(path: Path, title: str, known: Known, meshes: Mapping[str, Mesh | None]) -> None:
-    """Draw the points of a cloud, lit by their normals, and every mesh of it; nothing where there is none."""
-    points = known.frame.to_world(known.points)
-    camera = Camera.before_points(points, known.normals)
-    shades = shades_of(known.normals, camera)
-    row = Image.new("RGB", (PANEL[0] * (1 + len(meshes)), PANEL[1]), "white")
-    with TemporaryDirectory() as folder:
-        panel = Path(folder) / "panel.png"
-        draw_points(panel, points, shades, PANEL, camera)
-        _paste(row, panel, 0, title)
-        for place, (name, mesh) in enumerate(meshes.items(), 1):
-            if mesh is not None:
-                draw_mesh(panel, *mesh, size=PANEL, camera=camera)
-            _paste(row, panel if mesh is not None else None, place, name)
-    row.save(path, optimize=True)
+INK = "#1f2937"
+QUALITIES = range(85, 20, -5)
+"""Of a JPEG, from the best."""
 
 
-def shades_of(normals: NDArray[np.float64], camera: Camera) -> NDArray[np.uint8]:
-    """Return colours (n, 3) of points with normals (n, 3), as the light falls on them, whichever side is out."""
+def mesh_picture(mesh: Mesh, size: Size, camera: Camera | None = None) -> Image.Image:
+    """Draw a mesh (v, 3), (f, 3), from where a run would look at it if no camera is given."""
+    return _drawn(lambda path: draw_mesh(path, *mesh, size=size, camera=camera))
+
+
+def points_picture(
+    points: NDArray[np.float64], normals: NDArray[np.float64], size: Size, camera: Camera
+) -> Image.Image:
+    """Draw points (n, 3), lit by their normals (n, 3), whichever side is out."""
     brightness = abs(normals @ camera.view_from_world.T @ LIGHT).clip(0.25, 1)
-    return np.rint(brightness[:, None] * [150, 170, 205]).astype(np.uint8)
+    shades = np.rint(brightness[:, None] * [150, 170, 205]).astype(np.uint8)
+    twice = 2 * size[0], 2 * size[1]  # and then smaller, which rounds the dots
+    return shrunk(_drawn(lambda path: draw_points(path, points, shades, twice, camera)), size)
 
 
-def _paste(row: Image.Image, panel: Path | None, place: int, title: str) -> None:
-    left = place * PANEL[0]
-    if panel is not None:
-        with Image.open(panel) as drawn:
-            row.paste(drawn, (left, 0))
-    ImageDraw.Draw(row).text((left + 8, 4), title, fill="black", font_size=26)
+def _drawn(draw: Callable[[Path], None]) -> Image.Image:
+    with TemporaryDirectory() as folder:
+        path = Path(folder) / "panel.png"
+        draw(path)
+        return opened(path)
 
 
-def draw_sheet(path: Path, pictures: Sequence[Path]) -> None:
-    """Put pictures of clouds, all with as many panels, on one sheet of at most ``LARGEST`` bytes."""
-    if not pictures:
-        return
-    with Image.open(pictures[0]) as first:
-        width = first.width // PANEL[0] * ON_SHEET[0]
-    rows = -(-len(pictures) // COLUMNS)
-    sheet = Image.new("RGB", (COLUMNS * width, rows * ON_SHEET[1]), "white")
-    for place, picture in enumerate(pictures):
-        with Image.open(picture) as drawn:
-            corner = place % COLUMNS * width, place // COLUMNS * ON_SHEET[1]
-            sheet.paste(drawn.resize((width, ON_SHEET[1]), Image.Resampling.LANCZOS), corner)
-    for quality in range(90, 20, -5):
-        sheet.save(path, quality=quality, optimize=True)
-        if path.stat().st_size <= LARGEST:
+def opened(path: Path) -> Image.Image:
+    """Read a picture, in red, green and blue."""
+    with Image.open(path) as picture:
+        return picture.convert("RGB")
+
+
+def shrunk(picture: Image.Image, size: Size) -> Image.Image:
+    """Return a picture at another size."""
+    return picture.resize(size, Image.Resampling.LANCZOS)
+
+
+def in_columns(panels: Sequence[Panel], columns: int) -> Iterator[Sequence[Panel]]:
+    """Yield rows of so many panels; the last may have fewer."""
+    return (panels[start : start + columns] for start in range(0, len(panels), columns))
+
+
+def sheet(rows: Sequence[Sequence[Panel]], size: Size, font_size: int = 18) -> Image.Image:
+    """Put rows of panels, all of one size, on white; a row without captions has no room for them.
+
+    Parameters
+    ----------
+    rows
+        From the top, each from the left.
+    size
+        Of the panels' pictures.
+    font_size
+        Of the captions, in pixels; a line is half as high again.
+    """
+    line, font = font_size * 3 // 2, ImageFont.load_default(font_size)
+    lines = [line if any(caption for caption, _ in row) else 0 for row in rows]
+    whole = Image.new("RGB", (size[0] * max(map(len, rows)), size[1] * len(rows) + sum(lines)), "white")
+    draw, top = ImageDraw.Draw(whole), 0
+    for row, above in zip(rows, lines, strict=True):
+        for place, (caption, picture) in enumerate(row):
+            left = place * size[0]
+            draw.text((left + size[0] / 2, top + above / 2), caption, fill=INK, font=font, anchor="mm")
+            if picture is not None:
+                whole.paste(picture, (left, top + above))
+        top += above + size[1]
+    return whole
+
+
+def save_jpeg(picture: Image.Image, path: Path, largest: int) -> None:
+    """Write a JPEG of the best quality that takes at most `largest` bytes."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    for quality in QUALITIES:
+        picture.save(path, quality=quality, optimize=True)
+        if path.stat().st_size <= largest:
             break
+
+
+def save_png(picture: Image.Image, path: Path, colors: int = 64) -> None:
+    """Write a PNG of few colours, without dots that stand for others."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    picture.quantize(colors, dither=Image.Dither.NONE).save(path, optimize=True)
