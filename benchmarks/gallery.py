@@ -1,16 +1,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The gallery: docs/gallery.md's picture and table, and a folder of pages that turn.
+"""The gallery: twenty clouds and models of Debian's libcgal-demo, and a page of each, to turn.
 
-    python benchmarks/gallery_page.py build/gallery docs/gallery.md FILE ...
+    python benchmarks/gallery.py build/gallery docs/gallery.md
 
-Each FILE is a cloud, or a model, of which simulated scans are made first (`hdpea dataset scan --points 20000`). Every
-mesh is made by `hdpea reconstruct --page`, with 2,000 faces, in a process of its own. OUT/index.html shows all of them
-and leads to the pages. What lies in OUT already is not made again.
+Clouds are taken as they are, models are scanned first (`hdpea dataset scan --points 20000`). Each mesh is made by
+`hdpea reconstruct --faces 2000`, in a process of its own. Writes the page, a picture and the report of each to OUT,
+which `make docs` puts on the site, and renews the sheet and the table of PAGE. What lies in OUT is not made again.
 """
 
 from __future__ import annotations
 
-import html
 import json
 import subprocess
 import sys
@@ -20,18 +19,25 @@ from pathlib import Path
 from typing import Any
 
 import click
-from PIL import Image, ImageDraw, ImageFont
-
-from hdpea.reading.triangle_mesh import read_triangle_mesh
+from demo_data import CLOUDS, MODELS, demo_files
+from sheets import in_columns, opened, save_jpeg, sheet, shrunk
 
 POINTS, FACES = 20_000, 2_000
-MODELS = (".ply", ".obj", ".stl", ".off")
+SHOWN_CLOUDS = (
+    "kitten.xyz", "point_set_3.xyz", "hippo1.ply", "ball.ply", "building.ply", "b9_training.ply", "cube.pwn",
+    "sphere_20k.xyz",
+)  # fmt: skip
+SHOWN_MODELS = (
+    "armadillo.off", "bunny00.off", "bull.off", "camel.off", "dino.off", "man.off", "turbine.off", "fandisk.off",
+    "knot2.off", "anchor_dense.off", "cheese.off", "couplingdown.off",
+)  # fmt: skip
 COLUMNS = 4
-TILE = (400, 320)
-"""Width and height of a picture on the sheet, in pixels, with the line below it."""
+SMALL = (400, 300)
+"""Width and height of a picture on the site and on the sheet, in pixels."""
 
-LINE = 24
-QUALITY = 80
+LARGEST_PICTURE, LARGEST_SHEET = 30_000, 400_000
+"""Bytes."""
+
 MARK = "<!-- gallery -->"
 
 
@@ -51,36 +57,19 @@ def hdpea(*arguments: object) -> None:
         raise click.ClickException(f"hdpea {arguments[0]} ended with exit code {ended.returncode}.")
 
 
-def is_model(file: Path) -> bool:
-    """Tell whether a file has faces."""
-    return file.suffix in MODELS and len(read_triangle_mesh(file)[1]) > 0
-
-
-def made(file: Path, out: Path) -> Shown:
-    """Make the mesh, the picture and the page of a file."""
-    name, model = file.stem, is_model(file)
-    report = out / f"{name}.json"
+def made(file: Path, out: Path, scanned: bool) -> Shown:
+    """Make the mesh, the picture and the page of a cloud, or of the scan of a model."""
+    name = file.stem
+    report, picture = out / f"{name}.json", out / f"{name}.png"
     if not report.exists():
-        cloud = file
-        if model:
-            cloud = out / f"{name}.scan.ply"
+        click.echo(name)
+        cloud = out / f"{name}.scan.ply" if scanned else file
+        if scanned:
             hdpea("dataset", "scan", file, cloud, "--points", POINTS, "--force", "--quiet")
-        outputs = ["--report", report, "--page", out / f"{name}.html", "--picture", out / f"{name}.png"]
+        outputs = ["--report", report, "--page", out / f"{name}.html", "--picture", picture]
         hdpea("reconstruct", cloud, out / f"{name}.ply", "--faces", FACES, *outputs, "--force", "--quiet")
-    return Shown(name, json.loads(report.read_text()), model)
-
-
-def draw_sheet(path: Path, out: Path, shown: Sequence[Shown]) -> None:
-    """Put the pictures on one sheet, with their names."""
-    width, height = TILE
-    sheet = Image.new("RGB", (COLUMNS * width, -(-len(shown) // COLUMNS) * height), "white")
-    draw, font = ImageDraw.Draw(sheet), ImageFont.load_default(16)
-    for place, each in enumerate(shown):
-        left, top = place % COLUMNS * width, place // COLUMNS * height
-        with Image.open(out / f"{each.name}.png") as picture:
-            sheet.paste(picture.convert("RGB").resize((width, height - LINE), Image.Resampling.LANCZOS), (left, top))
-        draw.text((left + width / 2, top + height - LINE / 2), each.name, fill="black", font=font, anchor="mm")
-    sheet.save(path, quality=QUALITY, optimize=True)
+    save_jpeg(shrunk(opened(picture), SMALL), out / f"{name}.jpg", LARGEST_PICTURE)
+    return Shown(name, json.loads(report.read_text()), scanned)
 
 
 def table(shown: Sequence[Shown]) -> str:
@@ -101,26 +90,16 @@ def table(shown: Sequence[Shown]) -> str:
     return "\n".join(rows)
 
 
-def index(shown: Sequence[Shown]) -> str:
-    """Return a page that leads to all of them."""
-    links = [
-        f'<a href="{name}.html"><img src="{name}.png" width="400" alt=""><br>{name}</a>'
-        for name in (html.escape(each.name) for each in shown)
-    ]
-    style = "<style>body{font-family:sans-serif;text-align:center}a{display:inline-block;margin:8px}</style>"
-    return "\n".join(["<!doctype html><meta charset=utf-8><title>hdpea: gallery</title>", style, *links])
-
-
 @click.command()
 @click.argument("out", type=click.Path(path_type=Path))
 @click.argument("page", type=click.Path(exists=True, path_type=Path))
-@click.argument("files", nargs=-1, required=True, type=click.Path(exists=True, path_type=Path))
-def main(*, out: Path, page: Path, files: tuple[Path, ...]) -> None:
-    """Make pages of FILES in OUT, and write the picture and the table of PAGE."""
-    out.mkdir(parents=True, exist_ok=True)
-    shown = [made(file, out) for file in files]
-    (out / "index.html").write_text(index(shown))
-    draw_sheet(page.with_suffix(".jpg"), out, shown)
+def main(*, out: Path, page: Path) -> None:
+    """Make the pages in OUT, and write the sheet and the table of PAGE."""
+    clouds = demo_files(out / "clouds", CLOUDS, SHOWN_CLOUDS)
+    models = demo_files(out / "models", MODELS, SHOWN_MODELS)
+    shown = [made(file, out, scanned) for files, scanned in ((clouds, False), (models, True)) for file in files]
+    panels = [(each.name, shrunk(opened(out / f"{each.name}.png"), SMALL)) for each in shown]
+    save_jpeg(sheet([*in_columns(panels, COLUMNS)], SMALL), page.with_suffix(".jpg"), LARGEST_SHEET)
     before, _, after = page.read_text().split(MARK)
     page.write_text(f"{before}{MARK}\n{table(shown)}\n{MARK}{after}")
 
