@@ -28,7 +28,6 @@ from hdpea.reading.triangle_mesh import read_triangle_mesh
 SIZE, FONT_SIZE, LARGEST = (230, 190), 13, 20_000
 """Width and height of a panel and of its letters, in pixels; bytes of a picture."""
 
-
 LEGEND = 0.95
 """Share of the height of a picture of tensors above its legend."""
 
