@@ -71,7 +71,8 @@ def _gallery_pages() -> list[Path]:
 def _gallery_links() -> str:
     """Return the pictures of the gallery, each a link to the page that turns, in place of the sheet of all."""
     names = [page.stem for page in _gallery_pages()]
-    return "\n".join(f"[![{name}](gallery/{name}.jpg){{width=24%}}](gallery/{name}.html)" for name in names)
+    look = "width=24%"
+    return "\n".join(f"[![{name}](gallery/{name}.jpg){{{look} title={name}}}](gallery/{name}.html)" for name in names)
 
 
 def _named() -> frozenset[str]:
