@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Raw clouds, and what becomes of each: a picture of the points beside that of the mesh, and a table of what is wrong.
 
-    python benchmarks/raw_gallery.py build/gallery [--before FOLDER] [CLOUD ...]
+    python benchmarks/raw_gallery.py build/raw [--before FOLDER] [CLOUD ...]
 
 Without clouds these are the raw ones of ../shared/data/clouds and all those of Debian's libcgal-demo. FOLDER holds
 another hdpea, such as an older one: what `pip install --target FOLDER` leaves there. Every run is a process of its own
