@@ -24,10 +24,11 @@ PACKAGE_SOURCES := CMakeLists.txt pyproject.toml $(shell find src python -type f
 CPP_SOURCES := $(shell find src tests/cpp examples/cpp -name '*.[ch]pp')
 
 .NOTPARALLEL:
-.PHONY: help setup demo docs docs-test wheel three test lint format core sanitize pytest fuzz bench-setup results losses trained-losses clean debian
+.PHONY: help setup demo gallery docs docs-test wheel three test lint format core sanitize pytest fuzz bench-setup results losses trained-losses clean debian
 
 help:
 	@echo "make demo      reconstruct two clouds into $(DEMO)/"
+	@echo "make gallery   reconstruct twenty clouds and models into build/gallery/, for make docs"
 	@echo "make test      everything below"
 	@echo "make lint      ruff, mypy, import-linter, clang-format"
 	@echo "make core      the C++ core: build with warnings as errors, run its tests"
@@ -124,6 +125,10 @@ demo: setup $(DEMO)/kitten.xyz
 	    --report $(DEMO)/$$cloud.json --picture $(DEMO)/$$cloud.png --page $(DEMO)/$$cloud.html || exit; \
 	done
 	@echo "== Open $(DEMO_CLOUDS:%=$(DEMO)/%.html) in a browser; pictures, meshes and reports lie beside them."
+
+# Twenty clouds and models of libcgal-demo, with a page of each; `make docs` puts on the site what is there. Minutes.
+gallery: setup
+	$(BIN)/python benchmarks/gallery.py build/gallery docs/gallery.md
 
 # ---- docs ------------------------------------------------------------------------------------------
 

@@ -10,35 +10,21 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
-from tempfile import TemporaryDirectory
 
 import click
-import numpy as np
-from numpy.typing import NDArray
-from PIL import Image
+from sheets import Mesh, mesh_picture, save_png, sheet
 
-from hdpea.pictures.picture import Camera, draw_mesh
+from hdpea.pictures.picture import Camera
 from hdpea.reading.triangle_mesh import read_triangle_mesh
 
 PANEL = (320, 320)
 """Width and height of each, in pixels."""
 
-COLORS = 64
-"""Colours in the picture, which keep it small."""
 
-
-def draw_side_by_side(path: Path, meshes: Sequence[tuple[NDArray[np.float64], NDArray[np.int64]]]) -> None:
+def draw_side_by_side(path: Path, meshes: Sequence[Mesh]) -> None:
     """Draw meshes (vertices, faces) from left to right, all from the viewpoint chosen for the first."""
     camera = Camera.before(*meshes[0])
-    row = Image.new("RGB", (PANEL[0] * len(meshes), PANEL[1]))
-    with TemporaryDirectory() as folder:
-        for place, mesh in enumerate(meshes):
-            panel = Path(folder) / f"{place}.png"
-            draw_mesh(panel, *mesh, size=PANEL, camera=camera)
-            with Image.open(panel) as drawn:
-                row.paste(drawn, (place * PANEL[0], 0))
-    path.parent.mkdir(parents=True, exist_ok=True)
-    row.quantize(COLORS).save(path, optimize=True)
+    save_png(sheet([[("", mesh_picture(mesh, PANEL, camera)) for mesh in meshes]], PANEL), path)
 
 
 @click.command()

@@ -4,7 +4,8 @@
     python tools/command_pages.py docs/commands/*.md
 
 A part stands between ``<!-- hdpea NAME -->`` and ``<!-- /hdpea NAME -->``: how the command is called, and a table of
-its options. So names, defaults and explanations have one home, the options, and a test holds the pages to it.
+its options. So names, defaults and explanations have one home, the options, and a test holds the pages to it. Beside an
+option stands what ``benchmarks/option_pictures.py`` drew of it.
 """
 
 from __future__ import annotations
@@ -18,6 +19,7 @@ import click
 
 from hdpea.cli import hdpea
 
+PICTURES = Path(__file__).parents[1] / "docs/commands/pictures"
 PART = re.compile(r"<!-- (hdpea [\w ]+?) -->\n.*?<!-- /\1 -->", re.DOTALL)
 
 
@@ -59,7 +61,14 @@ def _row(option: click.Option, context: click.Context) -> str:
     if isinstance(option.type, click.Choice):
         flags += " " + " \\| ".join(map(str, option.type.choices))
     explained = str(option.help or "").replace("|", "\\|")
-    return f"| {flags} | {_default(option, context)} | {explained} |"
+    return f"| {flags} | {_default(option, context)} | {explained}{_picture(option, context)} |"
+
+
+def _picture(option: click.Option, context: click.Context) -> str:
+    """Return the picture of what an option changes, if there is one."""
+    flag = option.opts[0]
+    path = PICTURES / f"{context.info_name}-{flag.removeprefix('--')}.jpg"
+    return f"<br>![what {flag} changes]({PICTURES.name}/{path.name})" if path.exists() else ""
 
 
 def _default(option: click.Option, context: click.Context) -> str:

@@ -2,7 +2,8 @@
 """What the site has besides the files of docs/: the README as its front page, and the sources that pages link to.
 
 Pages link to files of the repository, as they would be read there. Those outside docs/ become pages of their own here,
-so that every link leads somewhere without a network. Formulas become MathML, which browsers draw unaided.
+so that every link leads somewhere without a network. Formulas become MathML, which browsers draw unaided. The pages of
+`make gallery` come along if they were made.
 """
 
 from __future__ import annotations
@@ -26,6 +27,10 @@ PAGES = {"README.md": "index.md", "CONTRIBUTING.md": "contributing.md", "CHANGEL
 LINK = re.compile(r"\]\((?!\w+:|#)([^)\s#]+)(#[^)\s]*)?\)")
 FORMULA = re.compile(r"^```math\n(.*?)^```$", re.DOTALL | re.MULTILINE)
 SOURCE = re.compile(r"^<!-- source (\S+) -->$", re.MULTILINE)
+GALLERY = ROOT / "build/gallery"
+"""Where `make gallery` leaves pages, and a small picture of each."""
+
+GALLERY_SHEET = re.compile(r"^!\[.*\]\(gallery\.jpg\)$", re.MULTILINE)
 LANGUAGES = {".py": "python", ".cpp": "cpp", ".hpp": "cpp", ".sh": "sh", ".txt": "text"}
 
 
@@ -33,6 +38,8 @@ def on_files(files: Files, config: MkDocsConfig) -> Files:
     """Add the pages that lie outside docs/, and the sources that any page links to."""
     for path, name in PAGES.items():
         files.append(File.generated(config, name, content=(ROOT / path).read_text()))
+    for path in (*_gallery_pages(), *(page.with_suffix(".jpg") for page in _gallery_pages())):
+        files.append(File.generated(config, f"gallery/{path.name}", abs_src_path=str(path)))
     pages = [*PAGES, *(f"docs/{each.src_uri}" for each in files.documentation_pages() if each.src_uri not in _named())]
     linked = {target for page in pages for target in _targets(page) if _uri(target).startswith("source/")}
     for target in sorted(linked):
@@ -41,10 +48,12 @@ def on_files(files: Files, config: MkDocsConfig) -> Files:
 
 
 def on_page_markdown(markdown: str, page: Page, config: MkDocsConfig, files: Files) -> str:  # noqa: ARG001
-    """Let links lead to pages of the site, draw formulas, and show the sources that a page asks for."""
+    """Let links lead to pages of the site, draw formulas, and show the sources and the gallery that a page asks for."""
     uri = page.file.src_uri
     if uri.startswith("source/"):
         return markdown
+    if uri == "gallery.md" and _gallery_pages():
+        markdown = GALLERY_SHEET.sub(_gallery_links(), markdown)
 
     def renamed(found: re.Match[str]) -> str:
         target = _resolved(_origin(uri), found[1])
@@ -53,6 +62,17 @@ def on_page_markdown(markdown: str, page: Page, config: MkDocsConfig, files: Fil
     markdown = LINK.sub(renamed, markdown)
     markdown = SOURCE.sub(lambda found: _fenced(found[1]), markdown)
     return FORMULA.sub(lambda found: f"<div>{convert(found[1].strip(), display='block')}</div>", markdown)
+
+
+def _gallery_pages() -> list[Path]:
+    return sorted(GALLERY.glob("*.html"))
+
+
+def _gallery_links() -> str:
+    """Return the pictures of the gallery, each a link to the page that turns, in place of the sheet of all."""
+    names = [page.stem for page in _gallery_pages()]
+    look = "width=24%"
+    return "\n".join(f"[![{name}](gallery/{name}.jpg){{{look} title={name}}}](gallery/{name}.html)" for name in names)
 
 
 def _named() -> frozenset[str]:

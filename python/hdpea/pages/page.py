@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hdpea.pages.encoding import Box, encoded_shape, with_common_ranges
-from hdpea.pages.shapes import MeshShape, Shape, positions_of
+from hdpea.pages.shapes import EllipsoidShape, MeshShape, PointShape, Shape
 from hdpea.pictures.camera import choose_view, choose_view_of_points
 from hdpea.pictures.colors import RAMP, UNDETERMINED
 from hdpea.pictures.picture import BACK, DOTS, EDGES, FRONT
@@ -106,10 +106,14 @@ def _filled(values: dict[str, str]) -> str:
 
 
 def _view(shape: Shape, sight: NDArray[np.float64] | None, up: str | None) -> NDArray[np.float64]:
-    if isinstance(shape, MeshShape):
-        return choose_view(shape.vertices, shape.faces, sight, up)
-    points = positions_of(shape)
-    return choose_view_of_points(points, np.zeros_like(points), sight, up)
+    match shape:
+        case MeshShape():
+            return choose_view(shape.vertices, shape.faces, sight, up)
+        case EllipsoidShape():
+            outward = shape.axes[:, 2] / np.linalg.norm(shape.axes[:, 2], axis=1, keepdims=True)
+            return choose_view_of_points(shape.centres, outward, sight, up)
+        case PointShape():  # whose normals do not say which side is out
+            return choose_view_of_points(shape.points, np.zeros_like(shape.points), sight, up)
 
 
 def _bytes(color: tuple[float, float, float]) -> list[int]:

@@ -96,15 +96,13 @@ def test_a_picture_is_taken_from_where_the_sensors_were(tmp_path: Path, monkeypa
     points = sphere_points(1000)
     seen = []
     monkeypatch.setattr("hdpea.pictures.picture.check_drawing", lambda: None)
-    monkeypatch.setattr(
-        "hdpea.pictures.picture.draw_mesh", lambda *_, camera, **__: seen.append(camera.view_from_world[2])
-    )
+    monkeypatch.setattr("hdpea.pictures.picture.draw_mesh", lambda *_, camera, **__: seen.append(camera))
     for side in (10, -10):
         np.savez(tmp_path / "scan.npz", points=points, sensor=np.tile([side, 0, 0], (1000, 1)))
         arguments = [str(tmp_path / name) for name in ("scan.npz", "mesh.obj")]
         assert run(["reconstruct", *arguments, "--picture", str(tmp_path / "mesh.png"), "--quiet"]) == 0
-    assert seen[0][0] > 0.7
-    assert seen[1][0] < -0.7
+    assert seen[0].view_from_world[2, 0] > 0.7
+    assert seen[1].view_from_world[2, 0] < -0.7
 
 
 def test_an_embedding_is_written(scan: str, tmp_path: Path, capsys: Capture) -> None:

@@ -10,15 +10,17 @@ from typing import Any
 
 import numpy as np
 import pytest
+import trimesh
 from helpers import clouds, meshes
 from helpers.browser import Browser
 
 from hdpea.cli import run
 from hdpea.errors import UsageError
+from hdpea.geometry.tensors import frames
 from hdpea.pages.colorings import DISTANCE, mesh_shape, point_shape
 from hdpea.pages.encoding import STEPS, UNKNOWN, encoded_coloring
 from hdpea.pages.page import write_page
-from hdpea.pages.shapes import Coloring, OwnColors, Shape
+from hdpea.pages.shapes import Coloring, EllipsoidShape, OwnColors, Shape
 from hdpea.writing.meshes import write_mesh
 
 
@@ -88,6 +90,16 @@ def test_colors_side_by_side_mean_the_same(tmp_path: Path) -> None:
         if coloring["name"] == DISTANCE
     ]
     assert marks == [["0", "3.5", "7"]] * 2
+
+
+@pytest.mark.parametrize("up", [1, 2])
+def test_ellipsoids_stand_as_their_surface_does(tmp_path: Path, up: int) -> None:
+    cone = trimesh.creation.cone(0.5, 1.0)
+    sampled, rows = trimesh.sample.sample_surface(cone, 2_000, seed=0)
+    centres, normals = (np.roll(each, up - 2, axis=1) for each in (sampled, cone.face_normals[rows]))
+    axes = frames(normals, np.roll(normals, 1, axis=1)) * 0.1
+    write_page(tmp_path / "page.html", "cone", [EllipsoidShape("tensors", centres, axes, 0.1, ())])
+    assert scene_of(tmp_path / "page.html")["up"] == np.eye(3)[up].tolist()
 
 
 def test_what_is_unknown_is_neither_end_of_a_ramp() -> None:
