@@ -29,9 +29,8 @@ from hdpea.reading.attributes import split_colors
 from hdpea.reading.cloud import PointCloud, cleaned_cloud
 from hdpea.reading.objects import PointsLike
 from hdpea.report.achieved_error import AchievedError, achieved_error
-from hdpea.report.agreement import Agreement
-from hdpea.report.measurement import coarseness, compare, level_facts, mesh_facts, missed_targets
-from hdpea.report.report import Distances, Journal, MeshFacts, Report
+from hdpea.report.measurement import Comparison, coarseness, compare, level_facts, mesh_facts, missed_targets
+from hdpea.report.report import Journal, MeshFacts, Report
 from hdpea.result import Level, Reconstruction
 from hdpea.runtime.clock import StageClock
 from hdpea.runtime.progress import ProgressCallback, tell
@@ -203,18 +202,18 @@ def reconstruct(
         mesh = faced.mesh
         wanted = budgeted.vertices_of(shown) if options.meshing.error is None else len(mesh.vertices_in_unit)
         measured = _measured(mesh, prepared, options.meshing, wanted, progress, clock)
-    journal.source["format"] = cloud.format
-    if cloud.crs is not None:
-        journal.source["crs"] = cloud.crs
+    journal.source |= {"format": cloud.format} | ({} if cloud.crs is None else {"crs": cloud.crs})
     journal.counts |= cloud.counts() | found.counts() | {"normals_estimated": prepared.oriented.estimated}
     journal.choices += device_choices(options.embedding.device)
     journal.choices += [*prepared.choices, *noise_choices, *count_choices, *embedded.choices, *mesh.choices]
     journal.meshing |= mesh.statistics
-    coarse = coarseness(measured.distances, surface.frame.diagonal, options.meshing)
-    journal.notes += [*cloud.notes, *found.notes, *prepared.notes, *faced.notes, *coarse]
+    distances, agreement, _ = measured.comparison
+    coarse = coarseness(distances, surface.frame.diagonal, options.meshing)
+    about_mesh = [*faced.notes, *coarse, *measured.comparison.missing_part()]
+    journal.notes += [*cloud.notes, *found.notes, *prepared.notes, *about_mesh]
     targets = missed_targets(mesh, measured.facts, options.meshing)
-    journal.missed += [*prepared.missed, *targets, *measured.error.missed(), *measured.agreement.missed()]
-    report = Report.of(journal, measured.facts, measured.distances, measured.agreement, measured.error)
+    journal.missed += [*prepared.missed, *targets, *measured.error.missed(), *agreement.missed()]
+    report = Report.of(journal, measured.facts, distances, agreement, measured.error)
     return Reconstruction(
         surface.frame.to_world(mesh.vertices_in_unit),
         mesh.faces,
@@ -231,8 +230,7 @@ class _Measured(NamedTuple):
     """What is found about a mesh in the end."""
 
     facts: MeshFacts
-    distances: Distances
-    agreement: Agreement
+    comparison: Comparison
     error: AchievedError
 
 
@@ -249,9 +247,9 @@ def _measured(
         tell(progress, "measuring", 0)
         facts = mesh_facts(mesh)
         error = achieved_error(mesh, prepared.surface, prepared.oriented.surface, meshing.error)
-        distances, agreement = compare(mesh, prepared, wanted)
+        comparison = compare(mesh, prepared, wanted)
         tell(progress, "measuring", 1)
-    return _Measured(facts, distances, agreement, error)
+    return _Measured(facts, comparison, error)
 
 
 def _levels(

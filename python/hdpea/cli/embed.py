@@ -25,7 +25,7 @@ Examples:
 @config_option
 @force_option
 @quiet_option
-@setting_options("cleaning", "normals", "embedding", "run", also=["vertices", "particles"])
+@setting_options("cleaning", "normals", "embedding", "run", also=["vertices", "particles"], without=["texture"])
 @click.pass_context
 def command(ctx: click.Context, /, *, source: str, output: Path, force: bool, quiet: bool, **values: Any) -> None:
     """Embed the point cloud IN into R^8, where distances are lengths under the curvature metric.

@@ -43,16 +43,26 @@ def _describe(facts: CloudFacts) -> str:
         "format": facts.format,
         "points": f"{facts.counts['points']:,}",
         "attributes": ", ".join(facts.attributes) or "none",
+        "classes": _classes(facts),
         "from": _triple(facts.low),
         "to": _triple(facts.high),
         "extent": " x ".join(f"{length:.6g}" for length in extent) + f", diagonal {facts.diagonal:.6g}",
         "spacing": _spacing(facts),
         "normals": _normals(facts),
+        "crs": facts.crs or "",
         "a run needs": _needs(facts),
     }
-    if facts.crs is not None:
-        rows["crs"] = facts.crs
-    return "\n".join([*(f"{name:<12}{value}" for name, value in rows.items()), *facts.notes])
+    return "\n".join([*(f"{name:<12}{value}" for name, value in rows.items() if value), *facts.notes])
+
+
+MOST_CLASSES = 12
+"""Classes that are listed: a survey has fewer, and a label of every object more."""
+
+
+def _classes(facts: CloudFacts) -> str:
+    if facts.classes is None or len(facts.classes) > MOST_CLASSES:
+        return ""
+    return ", ".join(f"{number} ({points:,} points)" for number, points in facts.classes.items())
 
 
 def _triple(numbers: list[float]) -> str:

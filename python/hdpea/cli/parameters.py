@@ -142,6 +142,13 @@ up_option = click.option(
     "z if it does not show",
 )
 
+
+def in_flags(text: str) -> str:
+    """Return a text of the library with the flags of the command that is running in place of options."""
+    command = click.get_current_context().command
+    return command.in_flags(text) if isinstance(command, GroupedCommand) else text
+
+
 quiet_option = click.option("--quiet", cls=GroupedOption, is_flag=True, help="say nothing but errors")
 
 

@@ -22,6 +22,7 @@ from hdpea.cli.parameters import (
     GroupedOption,
     chosen_options,
     force_option,
+    in_flags,
     quiet_option,
     setting_options,
     up_option,
@@ -205,7 +206,7 @@ def _make_one(job: Job, as_json: bool, quiet: bool, verbose: bool) -> None:
         if as_json:
             click.echo(Ended.of(job, report, error).as_line())
         if not quiet:
-            click.echo(summarize(report, job.destination.name, verbose), err=True)
+            click.echo(in_flags(summarize(report, job.destination.name, verbose)), err=True)
             for line in remarks(job, report):
                 click.echo(line, err=True)
     except HdpeaError as failed:

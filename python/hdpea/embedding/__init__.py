@@ -24,7 +24,7 @@ from hdpea.options import EmbeddingOptions, Options
 from hdpea.options.choice import Choice
 from hdpea.reading.cloud import cleaned_cloud
 from hdpea.reading.objects import PointsLike
-from hdpea.runtime.progress import PhaseCallback, ProgressCallback, of_phase
+from hdpea.runtime.progress import PhaseCallback, ProgressCallback, of_phase, tell
 from hdpea.runtime.threads import limited_threads
 from hdpea.surface.preparation import prepare_surface
 from hdpea.surface.surface import Surface
@@ -75,6 +75,7 @@ def embed_surface(
     `embedder` replaces the one that the options name.
     """
     embedder = embedder or EMBEDDERS[options.embedding]
+    tell(progress, "embedding", 0)
     with core_errors_translated():
         return embedder(surface, vertices, options, of_phase(progress, "embedding"))
 

@@ -128,6 +128,7 @@ def _mesh_of_particles(
     attempts = list[Mesh]()
     while len(attempts) < ATTEMPTS:
         with clock.stage("particles"):
+            tell(progress, "particles", 0)
             particles = spread_particles(
                 coordinates,
                 bases,

@@ -24,9 +24,6 @@ CORRECTIONS = 1
 On a smoothly painted sphere of 20,000 points and 2,500 vertices, the 95th percentile of the error of colours is 2.6,
 1.5 and 1.0 of 255 after 0, 1 and 3 corrections; with noise of 5 % of white on each point it is 7.2, 8.6 and 10.4."""
 
-NEAREST = 0.5
-"""Weight from which on a point is nearest to one corner of its face."""
-
 Rows = NDArray[np.float64]
 
 
@@ -123,8 +120,8 @@ class _Feet:
         return self._completed(origin + self._in_range(means, offsets, known), totals > 0, values, known)
 
     def _in_range(self, means: Rows, values: Rows, known: NDArray[np.bool_]) -> Rows:
-        """Return means (v,) within what the points nearest to each vertex have: corrections overshoot fine detail."""
-        row, side = np.nonzero((self.weights > NEAREST) & known[:, None])
+        """Return means (v,) within what the points on each vertex's faces have: corrections overshoot fine detail."""
+        row, side = np.nonzero((self.weights > 0) & known[:, None])
         corner = self.corners[row, side]
         least, most = np.full(len(means), np.inf), np.full(len(means), -np.inf)
         np.minimum.at(least, corner, values[row])

@@ -6,6 +6,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from hdpea.options.checked import Checked, option
+from hdpea.options.meshing import POINTS_PER_VERTEX
 
 POINTS_PER_PARTICLE = 3
 """Points per particle where the mesh is simplified: with fewer particles, what is thinner than they are apart tears."""
@@ -28,7 +29,8 @@ class ParticleOptions(Checked):
     particles: int | None = option(
         None,
         "particles to spread; their mesh is simplified where fewer vertices are wanted; default: one for every "
-        f"{POINTS_PER_PARTICLE} points, at most {ENOUGH_PARTICLES:,} or {ENOUGH_PER_VERTEX} for each vertex",
+        f"{POINTS_PER_PARTICLE} points, at most {ENOUGH_PARTICLES:,} or {ENOUGH_PER_VERTEX} for each vertex; one for "
+        f"every {POINTS_PER_VERTEX} where points were denoised, or most normals estimated",
         minimum=4,
     )
     iterations: int | None = option(

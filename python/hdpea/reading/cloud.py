@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
+from os import PathLike
 from typing import Any
 
 import numpy as np
@@ -164,6 +165,8 @@ def cleaned_cloud(
     UnreadableInput
         If no point is left.
     """
+    if isinstance(points, str | PathLike):
+        raise UsageError(f"The points are a name, {points}.", "Read the file: hdpea.read(name).")
     parts = None if isinstance(points, PointCloud) else parts_of(points)
     if parts is not None:
         points = _of_parts(parts)

@@ -43,17 +43,40 @@ def placed_in_world(
 
 def colors_at(path: Path, vertices: NDArray[np.float64]) -> dict[str, NDArray[np.uint8]]:
     """Return red, green and blue (v,), sRGB, of a GLB file's vertex colours or texture at vertices read from it."""
-    import trimesh
+    data = path.read_bytes()
+    positions, light = _attribute(data, "POSITION"), _attribute(data, "COLOR_0")
+    if positions is not None and light is not None:
+        colors = np.rint(255 * srgb_of_linear(light[:, :3].clip(0, 1)))
+    else:
+        import trimesh
 
-    mesh: Any = trimesh.load_mesh(path, process=False)
-    if mesh.visual is None or not mesh.visual.defined:
-        return {}
-    textured = mesh.visual.kind == "texture"
-    visual = mesh.visual.to_color() if textured else mesh.visual
-    colors = np.asarray(visual.vertex_colors)[:, :3]
-    if not textured:  # light, by the standard
-        colors = np.rint(255 * srgb_of_linear(colors / 255.0)).astype(np.uint8)
-    at = np.asarray(mesh.vertices, np.float64)
-    placed, _ = placed_in_world(path.read_bytes(), at, np.empty((0, 3), np.int64), merged=False)
+        mesh: Any = trimesh.load_mesh(path, process=False)
+        if mesh.visual is None or mesh.visual.kind != "texture" or mesh.visual.uv is None:
+            return {}
+        positions, colors = np.asarray(mesh.vertices), np.asarray(mesh.visual.to_color().vertex_colors)[:, :3]
+    placed, _ = placed_in_world(data, positions.astype(np.float64), np.empty((0, 3), np.int64), merged=False)
     nearest = _core.nearest_neighbors(np.ascontiguousarray(placed), np.ascontiguousarray(vertices), 1)[:, 0]
-    return dict(zip(("red", "green", "blue"), np.ascontiguousarray(colors[nearest].T), strict=True))
+    return dict(zip(("red", "green", "blue"), np.ascontiguousarray(colors[nearest].astype(np.uint8).T), strict=True))
+
+
+COMPONENTS: dict[int, tuple[str, int]] = {5121: ("<u1", 255), 5123: ("<u2", 65535), 5126: ("<f4", 1)}
+"""Types of numbers by their names in glTF, and what counts as 1 among them."""
+
+
+def _attribute(data: bytes, name: str) -> NDArray[np.float64] | None:
+    """Return the numbers (v, c) of that name of the only primitive of a GLB file; None if it has more, or none such."""
+    (length,) = struct.unpack_from("<I", data, 12)
+    tree = json.loads(data[20 : 20 + length])
+    primitives = [each for mesh in tree.get("meshes", []) for each in mesh["primitives"]]
+    if len(primitives) != 1 or name not in primitives[0]["attributes"]:
+        return None
+    accessor = tree["accessors"][primitives[0]["attributes"][name]]
+    if accessor["componentType"] not in COMPONENTS or "bufferView" not in accessor:
+        return None
+    kind, largest = COMPONENTS[accessor["componentType"]]
+    view, width = tree["bufferViews"][accessor["bufferView"]], int(accessor["type"].removeprefix("VEC"))
+    item = np.dtype(kind).itemsize
+    start = 28 + length + view.get("byteOffset", 0) + accessor.get("byteOffset", 0)
+    strides = (view.get("byteStride", width * item), item)
+    rows: NDArray[Any] = np.ndarray((accessor["count"], width), kind, data, start, strides)
+    return rows / largest

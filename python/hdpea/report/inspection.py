@@ -13,6 +13,7 @@ from hdpea.frontend.cleaning import surface_cloud
 from hdpea.geometry.unit_frame import UnitFrame, diagonal_of
 from hdpea.options import MeshingOptions
 from hdpea.reading import PointCloud
+from hdpea.reading.attributes import classes_of
 from hdpea.report.cost import PEAK_BYTES, seconds_of_run
 from hdpea.surface.given_signs import GivenSigns, given_signs
 from hdpea.surface.normals import ORIENTATION_NEIGHBORS
@@ -29,13 +30,14 @@ class CloudFacts:
     lie on scan lines. ``normals_fit`` tells whether the normals lie across the surface, or else will be estimated.
     ``normal_agreement`` is the share of neighbouring points whose normals point to the same side, by which a run
     decides whether to orient them anew, which takes time, unless they contradict each other patch by patch
-    (``normals_oriented``). Each is None where there is nothing to compare. The
-    estimates are for the default number of vertices.
+    (``normals_oriented``). ``classes`` has how many points are of each. Each is None where there is nothing to compare.
+    The estimates are for the default number of vertices.
     """
 
     format: str
     counts: dict[str, int]
     attributes: list[str]
+    classes: dict[int, int] | None
     low: list[float]
     high: list[float]
     diagonal: float
@@ -64,6 +66,7 @@ def inspect(cloud: PointCloud) -> CloudFacts:
         format=cloud.format,
         counts=cloud.counts() | found.counts(),
         attributes=list(cloud.attributes),
+        classes=_points_of_classes(cloud),
         low=low.tolist(),
         high=high.tolist(),
         diagonal=diagonal,
@@ -78,6 +81,14 @@ def inspect(cloud: PointCloud) -> CloudFacts:
         crs=cloud.crs,
         notes=[*cloud.notes, *found.notes],
     )
+
+
+def _points_of_classes(cloud: PointCloud) -> dict[int, int] | None:
+    classes = classes_of(cloud.attributes)
+    if classes is None:
+        return None
+    numbers, counts = np.unique(classes, return_counts=True)
+    return dict(zip(numbers.tolist(), counts.tolist(), strict=True))
 
 
 def _compare_neighbors(cloud: PointCloud) -> tuple[float, bool | None, GivenSigns | None]:

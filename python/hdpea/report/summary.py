@@ -28,6 +28,8 @@ def outcome(report: Report) -> Iterator[str]:
     """Yield what came out, and how good it is; a line each."""
     yield _mesh(report.mesh) + _filled(report.meshing.get("area_filled", 0))
     yield _distances(report.distances) + _error(report.error)
+    for number, level in enumerate(report.levels, start=1):
+        yield f"level {number}: {level.vertices:,} vertices, {level.faces:,} faces, error {level.error:.3g}"
 
 
 def describe(choice: Choice) -> str:

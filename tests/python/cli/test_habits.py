@@ -61,6 +61,31 @@ def test_a_mesh_that_hardly_shows_the_shape_is_told(
 
 
 @pytest.mark.parametrize(
+    ("typed", "meant"),
+    [
+        (["a.stl", "{scan}"], "The cloud comes first: hdpea reconstruct {scan} a.stl"),
+        (["{scan}", "mesh"], "mesh.obj, say"),
+        (["{scan}", "mesh.gltf"], "mesh.glb, say"),
+    ],
+)
+def test_a_name_that_cannot_be_meant_gets_one_that_can(
+    typed: list[str], meant: str, scan: str, failed: Callable[..., str]
+) -> None:
+    assert meant.format(scan=scan) in failed(2, "reconstruct", *(each.format(scan=scan) for each in typed))
+
+
+def test_an_open_stl_is_told_and_what_else_was_written(scan: str, tmp_path: Path, capsys: Capture) -> None:
+    points = np.load(scan)
+    np.save(scan, points[points[:, 2] < 0.3])
+    more = ["--report", str(tmp_path / "report.json"), "--quiet"]
+    for flags, told in (([], "--watertight makes it so"), (["--watertight"], "of the area fills holes")):
+        assert run(["reconstruct", scan, str(tmp_path / "mesh.stl"), *more[:2], *flags]) == 0
+        lines = capsys.readouterr().err
+        assert told in lines
+        assert f"Also written: {tmp_path / 'report.json'}" in lines
+
+
+@pytest.mark.parametrize(
     ("words", "offered"),
     [("hdpea re", "plain,reconstruct"), ("hdpea reconstruct --out", "plain,--out-dir"), ("hdpea info sc", "file,sc")],
 )

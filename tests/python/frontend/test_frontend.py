@@ -86,6 +86,14 @@ def test_a_sheet_far_sparser_than_what_it_borders_on_is_kept() -> None:
     assert found[: -len(strays)].sum() <= 10  # at the rim; without a look at sheets, 100
 
 
+def test_a_sheet_far_from_everything_is_dropped() -> None:
+    random = np.random.default_rng(3)
+    dense, far = random.random((6000, 3)) * [1, 1, 0], random.random((40, 3)) * [30, 30, 0] + [60, 0, 0]
+    found = classify(np.vstack([dense, far])).strays
+    assert found[-len(far) :].all()
+    assert found[: -len(far)].sum() <= 10
+
+
 def test_of_points_on_lines_those_are_kept_that_the_gaps_need() -> None:
     cloud = scan_lines(40, density=15)
     found = classify(cloud)

@@ -57,6 +57,12 @@ def test_colours_are_those_of_the_points_however_they_are_interpolated(painted: 
         assert np.percentile(errors, 95) < 2
 
 
+def test_fine_stripes_do_not_overshoot() -> None:
+    stripes = np.where(np.sin(25 * POINTS[:, 2]) > 0, 200, 60).astype(np.uint8)
+    mesh = reconstruct(POINTS, POINTS, vertices=150, attributes=dict.fromkeys(("red", "green", "blue"), stripes))
+    assert 60 <= mesh.attributes["red"].min() <= mesh.attributes["red"].max() <= 200
+
+
 def test_quantities_are_means_in_their_own_type(painted: Reconstruction) -> None:
     x, y, z = (painted.vertices / np.linalg.norm(painted.vertices, axis=1, keepdims=True)).T
     attributes = painted.attributes

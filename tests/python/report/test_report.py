@@ -13,6 +13,7 @@ from hdpea.options import Options, ParticleOptions
 from hdpea.options.choice import Choice
 from hdpea.report.achieved_error import AchievedError
 from hdpea.report.agreement import Agreement
+from hdpea.report.measurement import Comparison
 from hdpea.report.report import Distances, Journal, MeshFacts, Report
 from hdpea.report.summary import summarize
 
@@ -94,3 +95,9 @@ def test_summary_does_not_hide_a_bad_mesh() -> None:
     assert "NOT manifold, 3 boundary loops, 2 components, 1 self-intersection" in summarize(
         report_of(Journal(options=Options()), torn), "mesh.obj"
     )
+
+
+@pytest.mark.parametrize(("farthest", "told"), [(2.6, True), (1.3, False)])
+def test_a_part_without_mesh_is_told(farthest: float, told: bool) -> None:
+    compared = Comparison(Distances.of(np.array([0.0, 4.0]), spacing=0.5), Agreement(0.0, 0.0), farthest)
+    assert any("A part may be missing: points lie up to 4" in line for line in compared.missing_part()) == told

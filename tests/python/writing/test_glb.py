@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from hdpea.errors import UsageError
 from hdpea.geometry.color import linear_of_srgb
+from hdpea.reading.glb import colors_at
 from hdpea.reading.triangle_mesh import parse_triangle_mesh
 from hdpea.writing.meshes import write_mesh
 
@@ -131,6 +132,13 @@ def test_other_formats_say_their_crs_beside_them(tmp_path: Path) -> None:
     write_mesh(tmp_path / "mesh.obj", tetrahedron(), TETRAHEDRON_FACES, crs="EPSG:25832")
     beside = json.loads((tmp_path / "mesh.obj.world.json").read_text())
     assert (beside["crs"], beside["shift"], beside["up"]) == ("EPSG:25832", [0, 0, 0], "z")
+
+
+def test_colours_are_read_as_they_were_written(tmp_path: Path) -> None:
+    path = written(tmp_path, tetrahedron(), attributes=COLORS)
+    read = colors_at(path, parse_triangle_mesh(path)[0])
+    for name, values in COLORS.items():
+        np.testing.assert_allclose(read[name].astype(int), values, atol=3)  # in 8 bits of light, dark ones are coarse
 
 
 def test_glb_of_another_program_is_read_as_it_is(tmp_path: Path) -> None:
