@@ -75,7 +75,7 @@ def colors_in(path: Path) -> set[tuple[int, ...]]:
 
 
 def test_colmap(tmp_path: Path) -> None:
-    one, all_projects = recipe("COLMAP, every night")
+    one, all_projects, dated = recipe("COLMAP, every night")
     painted(tmp_path / "dense/fused.ply")
     in_shell(one, tmp_path)
     assert colors_in(tmp_path / "dense/mesh.ply") == {(200, 20, 10)}
@@ -87,6 +87,8 @@ def test_colmap(tmp_path: Path) -> None:
     (tmp_path / "projects/tower/dense/fused.ply").write_bytes(b"ply\n")
     with pytest.raises(subprocess.CalledProcessError):
         in_shell(all_projects, tmp_path, QUICK)
+    assert in_shell(dated, tmp_path, QUICK).split() == ["tower:", "exit", "code", "3"]
+    assert [each.stem.split("-")[0] for each in (tmp_path / "meshes").glob("*.ply")] == ["church"]
 
 
 def test_cloudcompare_and_meshlab(tmp_path: Path) -> None:
@@ -135,7 +137,7 @@ def test_pdal(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def test_blender_and_the_web(tmp_path: Path) -> None:
-    (command,) = recipe("Blender, and the web")
+    command, _ = recipe("Blender, and the web")  # gltfpack is of npm
     painted(tmp_path / "statue.ply")
     in_shell(command, tmp_path)
     vertices, _ = parse_triangle_mesh(tmp_path / "statue.glb")
@@ -143,6 +145,17 @@ def test_blender_and_the_web(tmp_path: Path) -> None:
     raw = trimesh.load(tmp_path / "statue.glb", force="mesh")
     assert np.ptp(raw.vertices, axis=0).argmin() == 1  # and in the file y is up
     assert len(raw.faces) == 300
+
+
+def test_printing(tmp_path: Path) -> None:
+    (commands,) = recipe("3D printing")
+    points, _ = clouds.sphere(COUNT)
+    np.savetxt(tmp_path / "points.txt", points[points[:, 2] > -0.7])  # it stood on something
+    in_shell(commands, tmp_path)
+    part = trimesh.load(tmp_path / "part.stl")
+    assert part.is_watertight
+    assert -0.9 < part.bounds[0, 2] < -0.7
+    assert (tmp_path / "part.html").stat().st_size > 1e5
 
 
 def test_terrain(tmp_path: Path) -> None:
