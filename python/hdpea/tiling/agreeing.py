@@ -11,7 +11,17 @@ from hdpea.errors import CannotReconstruct
 from hdpea.tiling.work import Work
 
 Piece = tuple[int, int]
-"""A tile, and one of the connected pieces of its surface."""
+"""A tile, and one of the connected pieces of its surface: patches that face opposite ways are pieces of their own."""
+
+Votes = dict[tuple[Piece, Piece], float]
+"""Of two pieces, by how much more of the points say that they face to one side than that they do not."""
+
+BESIDE = 8
+"""Nearest points of a point by which pieces of one tile are found to lie beside each other."""
+
+FLATTEST, LEAST_AGREEMENT = 0.3, 0.8
+"""Sine of the largest angle between a normal and the plane across a point beside it, and the least cosine, of either
+sign, between two normals, by which two points are taken to be of one sheet."""
 
 
 def agree(work: Work) -> None:
@@ -43,15 +53,17 @@ def _as_they_are(work: Work) -> dict[str, NDArray[np.int8]]:
 def _sides(work: Work) -> dict[str, NDArray[np.int8]]:
     """Return for each point of each tile whether its normal stays (1) or is turned (-1).
 
-    Where the halos overlap, the points of two pieces vote on whether both face to one side; the clearest votes count
-    first (a spanning forest of most votes). Pieces whose sides the file knows stay.
+    Where the halos overlap, the points of two pieces vote on whether both face to one side, and so do points of one
+    tile beside each other; the clearest votes count first (a spanning forest of most votes). Pieces whose sides the
+    file knows stay.
     """
     labels = dict[int, NDArray[np.int64]]()
-    votes = dict[tuple[Piece, Piece], float]()
+    votes: Votes = {}
     fixed = {t for t in range(work.plan.tiles) if not work.folder.facts("prepared", t)["computed_sides"]}
     for tile in range(work.plan.tiles):
         kept = work.folder.load("prepared", tile)
         labels[tile] = pieces(kept["neighbors"])
+        _vote_within(tile, kept["points"], kept["normals"], labels[tile], votes)
         for other in np.flatnonzero(work.plan.neighbors[tile, :tile]).tolist():
             _vote(work, (tile, kept["given"], kept["normals"], labels[tile]), other, labels[other], votes)
     signs = _signs(labels, votes, fixed)
@@ -66,7 +78,7 @@ def _vote(
     own: tuple[int, NDArray[np.float64], NDArray[np.float64], NDArray[np.int64]],
     other: int,
     labels: NDArray[np.int64],
-    votes: dict[tuple[Piece, Piece], float],
+    votes: Votes,
 ) -> None:
     """Add the votes of the points that two tiles share: those in the box of either."""
     tile, points, normals, own_labels = own
@@ -79,14 +91,45 @@ def _vote(
     near = np.linalg.norm(theirs["given"][same] - points[shared], axis=1) < 1e-9
     shared, same = shared[near], same[near]
     agreement = np.einsum("nc,nc->n", normals[shared], theirs["normals"][same])
-    pairs, inverse = np.unique(np.stack([own_labels[shared], labels[same]], axis=1), axis=0, return_inverse=True)
-    for (mine, their), sum_ in zip(pairs.tolist(), np.bincount(inverse.ravel(), agreement), strict=True):
-        votes[(tile, mine), (other, their)] = float(sum_)
+    _count(votes, (tile, own_labels[shared]), (other, labels[same]), agreement)
 
 
-def _signs(
-    labels: dict[int, NDArray[np.int64]], votes: dict[tuple[Piece, Piece], float], fixed: set[int]
-) -> dict[Piece, int]:
+def _vote_within(
+    tile: int,
+    points: NDArray[np.float64],
+    normals: NDArray[np.float64],
+    labels: NDArray[np.int64],
+    votes: Votes,
+) -> None:
+    """Add the votes of points of one tile beside each other, along one sheet, that are of two pieces."""
+    if labels.max(initial=0) == 0:
+        return
+    near = _core.nearest_neighbors(points, min(BESIDE, len(points) - 1))
+    one, other = np.repeat(np.arange(len(points)), near.shape[1]), near.ravel()
+    apart = labels[one] != labels[other]
+    one, other = one[apart], other[apart]
+    offsets = points[other] - points[one]
+    agreement = np.einsum("pc,pc->p", normals[one], normals[other])
+    slopes = np.abs(np.einsum("pc,pc->p", offsets, normals[one])) / np.linalg.norm(offsets, axis=1)
+    same_sheet = (slopes < FLATTEST) & (np.abs(agreement) > LEAST_AGREEMENT)
+    one, other = one[same_sheet], other[same_sheet]
+    _count(votes, (tile, labels[one]), (tile, labels[other]), agreement[same_sheet])
+
+
+def _count(
+    votes: Votes,
+    one: tuple[int, NDArray[np.int64]],
+    other: tuple[int, NDArray[np.int64]],
+    agreement: NDArray[np.float64],
+) -> None:
+    """Add how much the points (p,) of two tiles agree to the votes of the pieces (p,) that they are of."""
+    pairs, inverse = np.unique(np.stack([one[1], other[1]], axis=1), axis=0, return_inverse=True)
+    for (mine, their), sum_ in zip(pairs.tolist(), np.bincount(inverse.ravel(), agreement, len(pairs)), strict=True):
+        key = (one[0], mine), (other[0], their)
+        votes[key] = votes.get(key, 0.0) + float(sum_)
+
+
+def _signs(labels: dict[int, NDArray[np.int64]], votes: Votes, fixed: set[int]) -> dict[Piece, int]:
     """Return the sign of each piece, from the clearest votes to the faintest."""
     leader = {(tile, each): (tile, each) for tile, label in labels.items() for each in range(label.max() + 1)}
     sign = dict.fromkeys(leader, 1)

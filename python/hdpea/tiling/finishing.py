@@ -37,7 +37,8 @@ def finish(work: Work, tile: int) -> None:
     whole = work.folder.load("mesh", stage)
     vertices, faces = whole["vertices"], whole["faces"]
     reach = work.plan.collar + BEYOND * work.plan.halo
-    local = np.flatnonzero(work.plan.inside(tile, vertices, reach)[faces].any(axis=1))
+    known = work.plan.inside(tile, vertices, work.plan.halo)
+    local = np.flatnonzero(known[faces].any(axis=1))
     centres = vertices[faces[local]].mean(axis=1)
     wanted = work.plan.inside(tile, centres, work.plan.collar)
     if not wanted.any():
@@ -45,7 +46,7 @@ def finish(work: Work, tile: int) -> None:
             "finished", tile, _arrays(np.empty(0, np.int64), whole["vertices"][:0], faces[:0], faces[:0, 0])
         )
         return
-    region = region_of(faces[local], wanted)
+    region = region_of(faces[local], wanted, ~known)
     mesh, surface, embedded = _mesh_of(work, tile, vertices[region.vertices], region.faces, reach)
     made = _finished(work, tile, mesh, region, surface, embedded)
     arrays = _arrays(local[region.rows], made.vertices_in_unit, made.faces, region.vertices[: region.fixed])

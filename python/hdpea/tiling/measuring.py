@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from hdpea.geometry.triangles import mesh_area
-from hdpea.mesh.error_bound import ErrorBound
+from hdpea.mesh.error_bound import PLACES, ErrorBound
 from hdpea.mesh.extraction import Mesh
 from hdpea.report.achieved_error import AchievedError
 from hdpea.report.agreement import Agreement, agreement_of, distances_to
@@ -17,6 +17,9 @@ from hdpea.tiling.work import Agreed, Work, surface_of
 
 BEYOND = 1.5
 """How much of the mesh around its box a tile's points are compared with, in halos: these are on the mesh as well."""
+
+LEAST_PLACES = 5_000
+"""Fewest places at which the mesh of a tile is compared with the points: of all tiles as many as of one piece."""
 
 
 def measure(work: Work, tile: int) -> None:
@@ -38,7 +41,8 @@ def measure(work: Work, tile: int) -> None:
         facts["points_without_mesh"] = agreement_of(around, surface, vertices).points_without_mesh
     if len(own.faces):
         facts["area_without_points"] = agreement_of(own, surface, vertices).area_without_points
-        facts["mesh_to_points"] = ErrorBound(surface, 0.0).reached(own).mesh_to_points
+        places = max(PLACES // work.plan.tiles, LEAST_PLACES)
+        facts["mesh_to_points"] = ErrorBound(surface, 0.0).reached(own, places).mesh_to_points
     work.folder.save("measured", tile, {"distances": distances}, facts)
 
 

@@ -45,7 +45,8 @@ def prepare(work: Work, tile: int) -> None:
         "known": len(points),
         "choices": [asdict(choice) for choice in prepared.choices],
         "missed": list(prepared.missed),
-        "notes": list(prepared.notes),
+        # Those with numbers would be as many as there are tiles.
+        "notes": [note for note in prepared.notes if not any(map(str.isdigit, note))],
     }
     arrays: Arrays = {
         "points": points,

@@ -35,11 +35,18 @@ class Region(NamedTuple):
         return np.arange(len(self.vertices)) < self.fixed
 
 
-def region_of(faces: NDArray[np.int64], wanted: NDArray[np.bool_]) -> Region:
+def region_of(faces: NDArray[np.int64], wanted: NDArray[np.bool_], unknown: NDArray[np.bool_]) -> Region:
     """Return the `wanted` faces (f,) of a manifold mesh with as few others as make them a region.
 
     Others are those around a vertex at which the wanted ones would meet in more than one fan, and those at an edge
     outside between two fixed vertices, which an edit inside could join a second time.
+
+    Parameters
+    ----------
+    faces
+        (f, 3) int64: the mesh, or a part of it that reaches well beyond what is wanted.
+    unknown
+        (v,) bool: vertices at which there may be faces that are not among these; they are fixed.
     """
     chosen = wanted.copy()
     count = int(faces.max(initial=-1)) + 1
@@ -47,7 +54,7 @@ def region_of(faces: NDArray[np.int64], wanted: NDArray[np.bool_]) -> Region:
     keys = edges[:, :, 0] * count + edges[:, :, 1]  # (f, 3)
     while True:
         inside, outside = faces[chosen], faces[~chosen]
-        shared = np.zeros(count, dtype=bool)
+        shared = unknown[:count].copy()
         shared[outside] = True
         used = np.zeros(count, dtype=bool)
         used[inside] = True

@@ -170,6 +170,8 @@ def _result(stream: PointStream, work: Work, tiling: Tiling, journal: Journal) -
     ]
     journal.meshing |= facts["statistics"]
     journal.notes += [_note(stream, work), *dict.fromkeys(note for each in tiles for note in each["notes"])]
+    if estimated := journal.counts["normals_estimated"]:
+        journal.notes.append(f"Normals of {estimated:,} points were estimated.")
     journal.notes += facts["notes"]
     journal.missed += dict.fromkeys(why for each in tiles for why in each["missed"])
     journal.missed += [*missed_targets(mesh, found, work.options.meshing), *agreement.missed()]

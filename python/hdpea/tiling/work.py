@@ -109,6 +109,9 @@ class EmbeddedTile:
 def surface_of(work: Work, tile: int) -> Surface:
     """Return the surface of a tile and its halo as all tiles agree it faces, in the unit frame of the whole cloud."""
     kept, sides = work.folder.load("prepared", tile), work.folder.load("agreed")[f"sides{tile}"]
-    spacing = work.folder.facts("prepared", tile)["spacing"]
     normals = kept["normals"] * sides[:, None]
+    if (sides == -1).any() and (sides == 1).any():
+        # What faced opposite ways was no neighbour.
+        return Surface.of(work.plan.frame, kept["points"], normals)
+    spacing = work.folder.facts("prepared", tile)["spacing"]
     return Surface(work.plan.frame, kept["points"], normals, kept["neighbors"].astype(np.int64), spacing)

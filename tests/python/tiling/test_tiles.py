@@ -19,11 +19,13 @@ from hdpea.tiling.run import Tiling, reconstruct_in_tiles
 POINTS = 6_000
 
 
-@pytest.fixture(autouse=True)
-def _narrow_halos(monkeypatch: pytest.MonkeyPatch) -> None:
+@pytest.fixture(scope="module", autouse=True)
+def _narrow_halos() -> Iterator[None]:
     """With halos as usual, tiles of so few points would be all halo."""
-    monkeypatch.setattr(plan, "HALO", 5.0)
-    monkeypatch.setattr(plan, "HALO_OF_VERTICES", 4.0)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(plan, "HALO", 5.0)
+        patch.setattr(plan, "HALO_OF_VERTICES", 4.0)
+        yield
 
 
 def torus_stream(normals: bool = True) -> PointStream:
@@ -32,39 +34,36 @@ def torus_stream(normals: bool = True) -> PointStream:
 
 
 def made(folder: Path, jobs: int = 1, normals: bool = True) -> Reconstruction:
-    tiling = Tiling(folder / "work", 1e9, jobs, tile_points=3_000)
-    return reconstruct_in_tiles(torus_stream(normals), tiling, Options())
+    return reconstruct_in_tiles(torus_stream(normals), Tiling(folder / "work", 1e9, jobs, tile_points=4_000))
 
 
-def test_a_torus_in_tiles_is_one_closed_surface_with_its_hole(tmp_path: Path) -> None:
-    result = made(tmp_path)
-    assert result.report.counts["tiles"] >= 4
-    mesh = result.report.mesh
+@pytest.fixture(scope="module")
+def whole(tmp_path_factory: pytest.TempPathFactory) -> Reconstruction:
+    folder = tmp_path_factory.mktemp("tiles")
+    result = made(folder)
+    assert not (folder / "work").exists()
+    return result
+
+
+def test_a_torus_in_tiles_is_one_closed_surface_with_its_hole(whole: Reconstruction) -> None:
+    assert whole.report.counts["tiles"] == 4
+    mesh = whole.report.mesh
     assert (mesh.closed, mesh.genus, mesh.components, mesh.vertices) == (True, 1, 1, POINTS // 8)
-    assert result.report.distances.rms < 0.1 * result.report.distances.spacing
-    assert not (tmp_path / "work").exists()
+    assert whole.report.distances.rms < 0.1 * whole.report.distances.spacing
 
 
-def test_processes_and_a_run_that_was_killed_give_the_same_bytes(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+def test_processes_that_go_on_with_a_killed_run_give_the_same_bytes(
+    whole: Reconstruction, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    whole = made(tmp_path / "whole")
-    finish = tasks.STAGES["finishing"]
-
     def killed(*_: object) -> None:
         raise KeyboardInterrupt
 
-    monkeypatch.setitem(tasks.STAGES, "finishing", (finish[0], killed))
-    with pytest.raises(KeyboardInterrupt):
-        made(tmp_path / "killed")
-    kept = (tmp_path / "killed" / "work" / "particles.0.npz").stat().st_mtime_ns
-    monkeypatch.setitem(tasks.STAGES, "finishing", finish)
-    begun = list[int]()
-    spread = tasks.STAGES["particles"]
-    monkeypatch.setitem(tasks.STAGES, "particles", (spread[0], lambda _, tile: begun.append(tile)))
-    again = made(tmp_path / "killed", jobs=2)
-    assert kept
-    assert not begun
+    with monkeypatch.context() as patch, pytest.raises(KeyboardInterrupt):
+        patch.setitem(tasks.STAGES, "finishing", ("finished", killed))
+        made(tmp_path)
+    kept = tmp_path / "work" / "particles.0.npz"
+    kept.unlink()  # so that two processes begin in the middle
+    again = made(tmp_path, jobs=2)
     np.testing.assert_array_equal(again.vertices, whole.vertices)
     np.testing.assert_array_equal(again.faces, whole.faces)
 
