@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Print what a cloud in tiles takes, by who works on it, and whether seams show.
 
-    python benchmarks/tile_table.py --shape torus --points 40000 --tile-points 24000 --jobs 1 2 4 --cluster
+    python benchmarks/tile_table.py --shape bumps --points 40000 --tile-points 24000 --jobs 1 2 4 --cluster
 
 The cloud is an analytic shape with its normals, in a binary PLY file. A row is a run in a process of its own: processor
 and wall-clock time, largest memory of a process, the first digits of a digest of vertices and faces, and the seams:

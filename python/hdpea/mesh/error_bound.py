@@ -83,7 +83,7 @@ class ErrorBound:
         return self.reached(mesh).larger <= self.error * ROUNDING
 
     def _of_places(self, mesh: Mesh, count: int) -> NDArray[np.float64]:
-        """Return the distances of `count` places of a mesh, and of its vertices, from the disks of their nearest points."""
+        """Return how far `count` places of a mesh, and its vertices, are from the disks of their nearest points."""
         places = mesh.vertices_in_unit
         if mesh_area(mesh.vertices_in_unit, mesh.faces) > 0:
             places = np.vstack([places, sample_surface(mesh.vertices_in_unit, mesh.faces, count).points])
