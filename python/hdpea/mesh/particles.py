@@ -116,6 +116,7 @@ def spread_particles(
     progress: PhaseCallback | None = None,
     device: str = EmbeddingOptions.device,
     placed: Particles | None = None,
+    free: NDArray[np.bool_] | None = None,
 ) -> Particles:
     """Spread `count` particles evenly over a surface in R^d.
 
@@ -136,6 +137,8 @@ def spread_particles(
         On which the particles take their steps; their neighbours are found on the CPU.
     placed
         Particles that are there already and stay where they are, beside which `count` others spread.
+    free
+        (n,) bool: the points without these, from which the others begin, at least `count`.
 
     Returns
     -------
@@ -147,7 +150,7 @@ def spread_particles(
     options = options or ParticleOptions()
     iterations = ITERATIONS if options.iterations is None else options.iterations
     with core_errors_translated():
-        seeds = _seeds(coordinates, count, options.seed, placed)
+        seeds = _seeds(coordinates, count, options.seed, placed, free)
         beside = Particles(coordinates[:0], seeds[:0]) if placed is None else placed
         starts = np.vstack([coordinates[seeds], beside.coordinates])
         cells, _ = restricted_cells(starts, bases[np.concatenate([seeds, beside.nearest])], AREA_DISK_RADIUS)
@@ -171,11 +174,21 @@ def spread_particles(
     return Particles(x.cpu().numpy(), nearest.cpu().numpy())
 
 
-def _seeds(coordinates: NDArray[np.float64], count: int, seed: int, placed: Particles | None) -> NDArray[np.int64]:
+def _seeds(
+    coordinates: NDArray[np.float64],
+    count: int,
+    seed: int,
+    placed: Particles | None,
+    free: NDArray[np.bool_] | None,
+) -> NDArray[np.int64]:
     """Return points (count,) far from each other, and from the particles that are placed, in the order of space."""
-    first = np.array([seed % len(coordinates)]) if placed is None else np.unique(placed.nearest)
-    given = 0 if placed is None else len(first)
-    seeds = _core.farthest_point_sampling(coordinates, given + count, first.tolist())[given:]
+    if placed is None or free is None:
+        seeds = _core.farthest_point_sampling(coordinates, count, [seed % len(coordinates)])
+    else:
+        given = np.unique(placed.nearest)
+        rows = np.concatenate([given, np.setdiff1d(np.flatnonzero(free), given)])
+        first = list(range(len(given)))
+        seeds = rows[_core.farthest_point_sampling(coordinates[rows], len(first) + count, first)[len(first) :]]
     return np.asarray(seeds[spatial_order(coordinates[seeds, :3])])
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Sequence
 from contextlib import closing
+from typing import Any
 
 from hdpea.errors import HdpeaError, UsageError
 from hdpea.runtime.processes import run_isolated
@@ -73,11 +74,11 @@ def _on_cluster(tasks: Sequence[Task], after: Sequence[Collection[int]], schedul
     except ImportError as error:
         raise UsageError("A `scheduler` needs Dask.", "pip install 'hdpea[cluster]'") from error
     try:
-        client = Client(scheduler, timeout="10s", set_as_default=False)
+        client = Client(scheduler, timeout="10s")
     except (OSError, ValueError) as error:
         raise UsageError(f"There is no Dask scheduler at {scheduler}: {error}.", "Start one: dask scheduler") from error
     with client:
-        futures: list[Client] = []
+        futures = list[Any]()
         for task, earlier in zip(tasks, after, strict=True):
             waited_for = [futures[each] for each in sorted(earlier)]
             futures.append(client.submit(_perform_after, task, waited_for, pure=False, retries=ATTEMPTS - 1))

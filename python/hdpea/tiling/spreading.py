@@ -42,9 +42,11 @@ def spread(work: Work, tile: int) -> None:
     placed = _placed_by(work, tile, earlier, embedded)
     later = [each for each in np.flatnonzero(work.plan.neighbors[tile]).tolist() if each not in earlier]
     whole = sum(work.folder.facts("embedded", each)["area"] for each in range(work.plan.tiles))
-    free = sum(_area_within(work, each, tile) for each in [tile, *later])
-    most = len(surface.normals) - (0 if placed is None else len(np.unique(placed.nearest)))
-    count = min(round(agreed.particles * free / whole), most)
+    area = sum(_area_within(work, each, tile) for each in [tile, *later])
+    free = ~_inside_any(work, earlier, surface.points_in_unit)
+    if placed is not None:
+        free[placed.nearest] = False
+    count = min(round(agreed.particles * area / whole), int(free.sum()))
     positions, normals = np.empty((0, 3)), np.empty((0, 3))
     if count > 0:
         many = agreed.particles > agreed.vertices
@@ -58,6 +60,7 @@ def spread(work: Work, tile: int) -> None:
             options=replace(work.options.particles, iterations=steps),
             device=work.options.embedding.device,
             placed=placed,
+            free=free,
         )
         positions = np.ascontiguousarray(spread.coordinates[:, :3])
         kept = ~_inside_any(work, later, positions)

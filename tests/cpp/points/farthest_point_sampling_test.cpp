@@ -57,6 +57,16 @@ TEST(FarthestPointSampling, FewerSamplesAreAPrefixOfMore) {
   EXPECT_EQ(farthest_point_sampling(points, 40, {0}), farthest_point_sampling(points, 90, {0}).head(40));
 }
 
+TEST(FarthestPointSampling, GoesOnFromSamplesThatAreGiven) {
+  const Coordinates points = random_points(300, 3, 1024);
+  const Samples all = farthest_point_sampling(points, 90, {7});
+  const std::vector<Index> given(all.begin(), all.begin() + 30);
+  EXPECT_EQ(farthest_point_sampling(points, 90, given), all);
+  EXPECT_THROW(farthest_point_sampling(points, 90, {3, 3}), InvalidArgument);
+  EXPECT_THROW(farthest_point_sampling(points, 1, {3, 4}), InvalidArgument);
+  EXPECT_THROW(farthest_point_sampling(points, 3, {}), InvalidArgument);
+}
+
 TEST(FarthestPointSampling, RefusesABadContract) {
   const Coordinates points = random_points(5, 3, 1024);
   EXPECT_THROW(farthest_point_sampling(points, 0, {0}), InvalidArgument);
