@@ -104,6 +104,11 @@ def plan_tiles(cells: Cells, frame: UnitFrame, options: Options, most_points: in
             raise UsageError(
                 f"Tiles of {most_points:,} points are all halo.", "Give more `memory`, or ask for more vertices."
             )
+        if cells.in_box(low, high).sum() < 2:
+            raise UsageError(
+                f"{core:,} points lie in one place, as seen from the farthest ones.",
+                "Leave out points that are far away.",
+            )
         axis, middle = cells.middle_of(low, high)
         left, right = high.copy(), low.copy()
         left[axis] = right[axis] = middle

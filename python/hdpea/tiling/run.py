@@ -31,8 +31,15 @@ from hdpea.tiling.tasks import Task, Took, tasks_of
 from hdpea.tiling.work import Work
 from hdpea.version import version
 
-LEAST_POINTS = 1_000
-"""Fewer points in a tile, its halo included, are never asked for: what `memory` has no room for anyhow."""
+SHARES = 8
+"""Tiles are as large as an eighth of the memory has room for, so that as many can be worked on at a time, and the number
+of processes, which must not change the bytes, does not change the tiles."""
+
+LEAST_SHARE = 0.6e9
+"""Bytes that a tile may take in any case, if there are as many: below, tiles are mostly halo."""
+
+KEY = "hdpea-tiles.key"
+"""File by which a work folder is known to be one, and of what."""
 
 
 @dataclass(frozen=True)
@@ -46,7 +53,7 @@ class Tiling:
     memory
         Bytes that all processes together may take.
     jobs
-        Processes on this machine.
+        Processes on this machine, at most; fewer, if the memory has no room for as many tiles.
     scheduler
         Address of a Dask scheduler, in place of these.
     tile_points
@@ -63,8 +70,19 @@ class Tiling:
         """Return how many points a tile may have, its halo included, of a cloud of so many."""
         if self.tile_points is not None:
             return self.tile_points
-        vertices = options.vertices_of(points)
-        return max(points_within(self.memory / self.jobs, points / vertices), LEAST_POINTS)
+        return points_within(self._share, points / options.vertices_of(points))
+
+    @property
+    def workers(self) -> int:
+        """How many processes work at a time."""
+        if self.tile_points is not None:
+            return self.jobs
+        return max(min(self.jobs, int(self.memory / self._share)), 1)
+
+    @property
+    def _share(self) -> float:
+        """Bytes that a tile may take."""
+        return min(max(self.memory / SHARES, LEAST_SHARE), self.memory)
 
 
 def reconstruct_in_tiles(
@@ -91,9 +109,9 @@ def reconstruct_in_tiles(
         with journal.clock.stage("tiling"):
             plan = take_in(stream, folder, options, most)
         work = Work(folder, plan, options)
-        tasks, after = tasks_of(work, options.threads or max((os.cpu_count() or 1) // tiling.jobs, 1))
+        tasks, after = tasks_of(work, options.threads or max((os.cpu_count() or 1) // tiling.workers, 1))
         with journal.clock.stage("tiles") as stage:
-            for number, (index, took) in enumerate(run(tasks, after, tiling.jobs, tiling.scheduler)):
+            for number, (index, took) in enumerate(run(tasks, after, tiling.workers, tiling.scheduler)):
                 _credit(journal.clock, stage, tasks[index], took)
                 tell(progress, "tiles", (number + 1) / len(tasks))
         return _result(stream, work, tiling, journal)
@@ -120,7 +138,7 @@ def _work_folder(path: Path, key: str) -> Iterator[WorkFolder]:
     After an error it stays, so that the next run goes on.
     """
     digest = hashlib.sha256(key.encode()).hexdigest()
-    told = path / "key"
+    told = path / KEY
     if path.exists() and not (told.is_file() and told.read_text() == digest):
         if any(path.iterdir()) and not told.is_file():
             raise UsageError(f"The folder {path} is in use for something else.", "Name another folder for the work.")
@@ -158,7 +176,7 @@ def _result(stream: PointStream, work: Work, tiling: Tiling, journal: Journal) -
         "normals_estimated": sum(each["estimated"] for each in tiles),
         "tiles": work.plan.tiles,
         "points_in_largest_tile": max(each["known"] for each in tiles),
-        "workers": tiling.jobs,
+        "workers": tiling.workers,
     }
     diagonal, agreed = work.plan.frame.diagonal, work.folder.facts("agreed")
     why = "beyond a tile, its points are known"

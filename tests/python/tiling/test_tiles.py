@@ -9,11 +9,13 @@ import pytest
 from helpers import clouds
 
 from hdpea.errors import UsageError
+from hdpea.geometry.unit_frame import UnitFrame
 from hdpea.options import MeshingOptions, Options
 from hdpea.reading.cloud import PointCloud
 from hdpea.reading.streaming import PointStream, stream_of_cloud
 from hdpea.result import Reconstruction
 from hdpea.tiling import plan, tasks
+from hdpea.tiling.cells import Cells
 from hdpea.tiling.run import Tiling, reconstruct_in_tiles
 
 POINTS = 6_000
@@ -75,6 +77,16 @@ def test_tiles_without_normals_agree_on_the_outside(tmp_path: Path) -> None:
     corners = mesh.vertices[mesh.faces]
     assert mesh.report.mesh.closed
     assert np.einsum("fc,fc->", corners[:, 0], np.cross(corners[:, 1], corners[:, 2])) > 0
+
+
+def test_neither_processes_nor_points_far_away_change_the_tiles_beyond_what_memory_says() -> None:
+    alone, four = (Tiling(Path(), 8e9, jobs) for jobs in (1, 4))
+    assert alone.most_points(Options(), 10**8) == four.most_points(Options(), 10**8) > 100_000
+    assert (alone.workers, four.workers, Tiling(Path(), 1e9, 4).workers) == (1, 4, 1)
+    points = np.vstack([np.random.default_rng(0).random((5_000, 3)), [[1e6, 0, 0]]])
+    frame = UnitFrame.around(points)
+    with pytest.raises(UsageError, match="one place"):
+        plan.plan_tiles(Cells.of([frame.to_unit(points)]), frame, Options(), 1_000)
 
 
 def test_what_tiles_do_not_have_is_refused(tmp_path: Path) -> None:
