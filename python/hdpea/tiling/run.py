@@ -32,8 +32,8 @@ from hdpea.tiling.work import Work
 from hdpea.version import version
 
 SHARES = 8
-"""Tiles are as large as an eighth of the memory has room for, so that as many can be worked on at a time, and the number
-of processes, which must not change the bytes, does not change the tiles."""
+"""Tiles are as large as an eighth of the memory has room for: as many can be worked on at a time, and the tiles,
+and with them the bytes, do not depend on the number of processes."""
 
 LEAST_SHARE = 0.6e9
 """Bytes that a tile may take in any case, if there are as many: below, tiles are mostly halo."""

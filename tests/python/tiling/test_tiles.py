@@ -8,7 +8,9 @@ import numpy as np
 import pytest
 from helpers import clouds
 
+from hdpea import _core
 from hdpea.errors import UsageError
+from hdpea.geometry.triangles import area_vectors_of
 from hdpea.geometry.unit_frame import UnitFrame
 from hdpea.options import MeshingOptions, Options
 from hdpea.reading.cloud import PointCloud
@@ -18,7 +20,7 @@ from hdpea.tiling import plan, tasks
 from hdpea.tiling.cells import Cells
 from hdpea.tiling.run import Tiling, reconstruct_in_tiles
 
-POINTS = 6_000
+POINTS, TILE_POINTS = 6_000, 4_000
 
 
 @pytest.fixture(scope="module", autouse=True)
@@ -36,7 +38,7 @@ def torus_stream(normals: bool = True) -> PointStream:
 
 
 def made(folder: Path, jobs: int = 1, normals: bool = True) -> Reconstruction:
-    return reconstruct_in_tiles(torus_stream(normals), Tiling(folder / "work", 1e9, jobs, tile_points=4_000))
+    return reconstruct_in_tiles(torus_stream(normals), Tiling(folder / "work", 1e9, jobs, tile_points=TILE_POINTS))
 
 
 @pytest.fixture(scope="module")
@@ -52,6 +54,19 @@ def test_a_torus_in_tiles_is_one_closed_surface_with_its_hole(whole: Reconstruct
     mesh = whole.report.mesh
     assert (mesh.closed, mesh.genus, mesh.components, mesh.vertices) == (True, 1, 1, POINTS // 8)
     assert whole.report.distances.rms < 0.1 * whole.report.distances.spacing
+
+
+def test_seams_do_not_show(whole: Reconstruction) -> None:
+    points, _ = clouds.torus(POINTS)
+    frame = UnitFrame.around(points)
+    in_unit = frame.to_unit(points)
+    tiles = plan.plan_tiles(Cells.of([in_unit]), frame, Options(), TILE_POINTS)
+    distances = _core.closest_surface_points(whole.vertices, whole.faces, points).distance
+    corners = whole.vertices[whole.faces]
+    spacing = np.sqrt(np.linalg.norm(area_vectors_of(corners), axis=1).sum() / len(whole.vertices)) / frame.diagonal
+    at_seam = sum(tiles.inside(tile, in_unit, 2 * spacing).astype(int) for tile in range(tiles.tiles)) > 1
+    assert 0.1 < at_seam.mean() < 0.6
+    assert np.square(distances[at_seam]).mean() < 1.1**2 * np.square(distances[~at_seam]).mean()
 
 
 def test_processes_that_go_on_with_a_killed_run_give_the_same_bytes(
