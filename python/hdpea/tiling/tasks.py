@@ -12,7 +12,7 @@ from hdpea.errors import core_errors_translated
 from hdpea.mesh.repair import repair_mesh
 from hdpea.mesh.sides import facing_out
 from hdpea.report.measurement import mesh_facts
-from hdpea.runtime.clock import cpu_seconds, peak_resident_bytes
+from hdpea.runtime.clock import StageClock, cpu_seconds
 from hdpea.runtime.threads import limited_threads
 from hdpea.tiling.agreeing import agree
 from hdpea.tiling.finishing import finish, finished_mesh, merge
@@ -53,7 +53,7 @@ class Task:
 
 @dataclass(frozen=True)
 class Took:
-    """What a task has taken: processor time of its process meanwhile, and the peak of its memory until its end."""
+    """What a task has taken: processor time of its process meanwhile, and the peak of its memory."""
 
     cpu_seconds: float
     peak_bytes: int
@@ -91,11 +91,12 @@ STAGES: dict[str, tuple[str, Callable[..., None]]] = {
 def perform(task: Task) -> Took:
     """Do a task, unless its result is there already."""
     started = cpu_seconds()
-    if not task.done:
-        _, function = STAGES[task.stage]
-        with limited_threads(task.threads), core_errors_translated():
-            function(task.work, *([] if task.number is None else [task.number]))
-    return Took(cpu_seconds() - started, peak_resident_bytes())
+    with StageClock().stage(task.stage) as stage:
+        if not task.done:
+            _, function = STAGES[task.stage]
+            with limited_threads(task.threads), core_errors_translated():
+                function(task.work, *([] if task.number is None else [task.number]))
+    return Took(cpu_seconds() - started, stage.peak_bytes)
 
 
 def tasks_of(work: Work, threads: int) -> tuple[list[Task], list[set[int]]]:
