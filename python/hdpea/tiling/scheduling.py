@@ -35,7 +35,7 @@ def run(
     Raises
     ------
     HdpeaError
-        If a task fails, or its workers die again and again.
+        Of the kind of its own if a task fails, or if its workers die again and again.
     UsageError
         If Dask is not installed, or there is no scheduler.
     """
@@ -54,8 +54,10 @@ def _in_processes(tasks: Sequence[Task], after: Sequence[Collection[int]], jobs:
     for attempt in range(ATTEMPTS):
         died = ""
         # Tasks that were done before find their results, and return at once.
-        with closing(run_isolated(perform, tasks, jobs, after=after)) as outcomes:
+        with closing(run_isolated(_attempt, tasks, jobs, after=after)) as outcomes:
             for outcome in outcomes:
+                if isinstance(outcome.result, HdpeaError):
+                    raise outcome.result
                 if outcome.result is not None:
                     if outcome.index not in done:
                         done.add(outcome.index)
@@ -85,8 +87,18 @@ def _on_cluster(tasks: Sequence[Task], after: Sequence[Collection[int]], schedul
         numbers = {future.key: number for number, future in enumerate(futures)}
         for future in as_completed(futures):
             if future.status != "finished":
-                raise HdpeaError(f"{_name(tasks[numbers[future.key]])} failed: {future.exception()}")
+                why = future.exception()
+                failed = HdpeaError(f"{_name(tasks[numbers[future.key]])} failed: {why}")
+                raise why if isinstance(why, HdpeaError) else failed
             yield numbers[future.key], future.result()
+
+
+def _attempt(task: Task) -> Took | HdpeaError:
+    """Do a task in a process of its own, which hands its errors on as they are."""
+    try:
+        return perform(task)
+    except HdpeaError as error:
+        return error
 
 
 def _perform_after(task: Task, _: Sequence[Took]) -> Took:

@@ -12,7 +12,7 @@ from hdpea import _core
 from hdpea.errors import UsageError
 from hdpea.geometry.triangles import area_vectors_of
 from hdpea.geometry.unit_frame import UnitFrame
-from hdpea.options import MeshingOptions, Options
+from hdpea.options import MeshingOptions, NormalOptions, Options
 from hdpea.reading.cloud import PointCloud
 from hdpea.reading.streaming import PointStream, stream_of_cloud
 from hdpea.result import Reconstruction
@@ -102,6 +102,13 @@ def test_neither_processes_nor_points_far_away_change_the_tiles_beyond_what_memo
     frame = UnitFrame.around(points)
     with pytest.raises(UsageError, match="one place"):
         plan.plan_tiles(Cells.of([frame.to_unit(points)]), frame, Options(), 1_000)
+
+
+@pytest.mark.parametrize("jobs", [1, 2])
+def test_errors_of_tasks_keep_their_kind(tmp_path: Path, jobs: int) -> None:
+    options = Options(normals=NormalOptions(orient="viewpoint"))
+    with pytest.raises(UsageError, match="viewpoint"):
+        reconstruct_in_tiles(torus_stream(), Tiling(tmp_path / "work", 1e9, jobs, tile_points=TILE_POINTS), options)
 
 
 def test_what_tiles_do_not_have_is_refused(tmp_path: Path) -> None:
