@@ -177,7 +177,7 @@ def _make_in_tiles(job: Job, stream: PointStream, clock: StageClock, progress: P
     if job.picture:
         from hdpea.pictures.picture import Camera, draw_mesh
 
-        camera = Camera.before(result.vertices, result.faces, None)
+        camera = Camera.before(result.vertices, result.faces, None, job.up)
         draw_mesh(job.picture, result.vertices, result.faces, camera=camera)
     return result.report
 
