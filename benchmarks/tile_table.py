@@ -17,7 +17,6 @@ from __future__ import annotations
 import argparse
 import hashlib
 import os
-import resource
 import signal
 import subprocess
 import sys
@@ -78,15 +77,13 @@ def row(who: int | str, cloud: Path, most: int) -> list[str]:
     """Return a row of the table: of one piece, so many processes, or a cluster."""
     started = time.perf_counter()
     if who == "whole":
-        result, busy, peak = reconstruct(read_points(cloud)), 0.0, 0
+        result = reconstruct(read_points(cloud))
+        busy = time.process_time()
     else:
         result = tiled(cloud, who, most)
-        stages = [each for each in result.report.clock.stages if each.level == 1]
-        busy, peak = sum(each.seconds for each in stages), max(each.peak_bytes for each in stages)
+        busy = sum(each.seconds for each in result.report.clock.stages if each.level == 1)
     wall = time.perf_counter() - started
-    used = resource.getrusage(resource.RUSAGE_SELF)
-    if who in (1, "whole"):
-        busy, peak = used.ru_utime + used.ru_stime, used.ru_maxrss * 1024
+    peak = result.report.clock.total().peak_bytes
     mesh, points = result.report.mesh, read_points(cloud).points
     plan = planned(points, most)
     tiles = str(result.report.counts.get("tiles", 1))
