@@ -20,7 +20,7 @@ whichever is wider."""
 COLLAR = 0.4
 """How far beyond a tile its mesh is edited, in halos: what two tiles that are not neighbours edit is 0.4 apart."""
 
-LEAST_CORE = 0.1
+LEAST_CORE = 0.03
 """A tile is not cut further if it has less than this share of the points that it may have: the rest is its halo."""
 
 
