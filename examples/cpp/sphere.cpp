@@ -44,7 +44,7 @@ TriangleMesh reconstruct(const Points& points, Index vertices) {
     if (normals.row(i).dot(outward.row(i)) < 0) normals.row(i) *= -1;
   }
 
-  const auto samples = farthest_point_sampling(points, vertices, 0);
+  const auto samples = farthest_point_sampling(points, vertices, {0});
   const Points seeds = points(samples, Eigen::all), seed_normals = normals(samples, Eigen::all);
   const Neighbors around = nearest_neighbors(seeds, 40);
 

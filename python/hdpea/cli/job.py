@@ -6,18 +6,21 @@ from __future__ import annotations
 import json
 import sys
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from hdpea.cli.destinations import Destination
-from hdpea.errors import HdpeaError, QualityMissed, core_errors_translated
+from hdpea.cli.tiles import Resources, stream_beyond
+from hdpea.errors import HdpeaError, QualityMissed, UsageError, core_errors_translated
 from hdpea.options import Options
 from hdpea.runtime.progress import ProgressCallback, tell
 
 if TYPE_CHECKING:
+    from hdpea.reading.streaming import PointStream
     from hdpea.report.report import Report
     from hdpea.result import Reconstruction
+    from hdpea.runtime.clock import StageClock
 
 
 @dataclass(frozen=True)
@@ -31,6 +34,7 @@ class Job:
     picture: Path | None = None
     page: Path | None = None
     up: str | None = None
+    resources: Resources = field(default_factory=Resources)
 
     def outputs(self) -> list[tuple[Path, str]]:
         """Return the files that are to be written, and the kind of each."""
@@ -110,8 +114,15 @@ def make_mesh(job: Job, progress: ProgressCallback | None) -> Report:
 
     clock, sources = StageClock(), job.destination.sources
     tell(progress, "reading", 0.0)
+    stream = stream_beyond(sources, job.options, job.resources)
+    if stream is not None:
+        return _make_in_tiles(job, stream, clock, progress)
     with clock.stage("reading"):
         cloud = read_scans(sources)
+    if not job.resources.suffice(len(cloud.points), job.options):
+        from hdpea.reading.streaming import stream_of_cloud
+
+        return _make_in_tiles(job, stream_of_cloud(cloud, ", ".join(sources)), clock, progress)
     # PyTorch takes seconds to load, so this comes after all that may be wrong with the request.
     tell(progress, "start-up", 0.0)
     with clock.stage("start-up"):
@@ -145,6 +156,29 @@ def make_mesh(job: Job, progress: ProgressCallback | None) -> Report:
         tell(progress, "page", 0.0)
         mesh, title = (result.vertices, result.faces), ", ".join(Path(each).name for each in sources)
         write_result_page(job.page, title, mesh, cloud, result.report, result.attributes, job.up)
+    return result.report
+
+
+def _make_in_tiles(job: Job, stream: PointStream, clock: StageClock, progress: ProgressCallback | None) -> Report:
+    """Make the mesh of a cloud that is larger than memory."""
+    from hdpea.tiling.run import Tiling, reconstruct_in_tiles
+
+    if job.dropped or job.page:
+        raise UsageError("`dropped` and `page` need the cloud in one piece.", "Leave them away, or give more `memory`.")
+    given = job.resources
+    tiling = Tiling(given.work_folder(job.destination.output), given.bytes(), given.jobs, given.scheduler)
+    result = reconstruct_in_tiles(stream, tiling, job.options, progress)
+    result.report.begin_with(", ".join(job.destination.sources), clock)
+    tell(progress, "writing", 0.0)
+    with result.report.clock.stage("writing"):
+        _write_mesh(job, result)
+    if job.report:
+        result.report.write(job.report)
+    if job.picture:
+        from hdpea.pictures.picture import Camera, draw_mesh
+
+        camera = Camera.before(result.vertices, result.faces, None, job.up)
+        draw_mesh(job.picture, result.vertices, result.faces, camera=camera)
     return result.report
 
 

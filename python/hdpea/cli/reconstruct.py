@@ -27,6 +27,7 @@ from hdpea.cli.parameters import (
     setting_options,
     up_option,
 )
+from hdpea.cli.tiles import MemoryType, Resources
 from hdpea.errors import HdpeaError, UsageError
 from hdpea.runtime.marks import check_replaceable, is_marked
 from hdpea.runtime.outputs import check_distinct, check_output
@@ -57,7 +58,17 @@ Of several meshes, the gravest: 1, 4, 3, 2, then 5.
     type=click.IntRange(min=1),
     default=1,
     show_default=True,
-    help="with --out-dir: how many meshes are made at a time; each takes memory of its own",
+    help="processes: with --out-dir, how many meshes are made at a time; else, how many work on tiles",
+)
+@click.option(
+    "--memory",
+    cls=GroupedOption,
+    type=MemoryType(),
+    help="memory to take, as 4GB; larger clouds are made in tiles; default: half of what the machine has",
+)
+@click.option("--work-dir", cls=GroupedOption, type=PATH, help="folder for tiles meanwhile; default: OUT.tiles")
+@click.option(
+    "--scheduler", cls=GroupedOption, help="Dask scheduler whose workers work on the tiles, as tcp://host:8786"
 )
 @click.option("--merge", cls=GroupedOption, is_flag=True, help="take all IN as scans of one thing, in one frame")
 @click.option(
@@ -90,6 +101,9 @@ def command(
     files: tuple[str, ...],
     out_dir: Path | None,
     jobs: int,
+    memory: float | None,
+    work_dir: Path | None,
+    scheduler: str | None,
     merge: bool,
     mesh_format: str | None,
     report: Path | None,
@@ -121,8 +135,12 @@ def command(
         )
     if out_dir is not None:
         files = _without_own(files, quiet)
+    # The processes of several meshes share the memory; each works on its tiles, if any, alone.
+    resources = Resources(memory, jobs, scheduler, work_dir)
+    if out_dir is not None:
+        resources = Resources(resources.bytes() / jobs, scheduler=scheduler)
     wanted = [
-        Job(each, options, report, dropped, picture, page, up)
+        Job(each, options, report, dropped, picture, page, up, resources)
         for each in destinations(files, out_dir, merge, mesh_format)
     ]
     if as_json and wanted[0].destination.output is None:

@@ -27,4 +27,4 @@ def farthest_rows(points: NDArray[np.float64], count: int) -> NDArray[np.int64]:
     From the point farthest out, whichever row that is.
     """
     first = int(np.argmax(np.square(points - points.mean(axis=0)).sum(axis=1)))
-    return _core.farthest_point_sampling(points, count, first)
+    return _core.farthest_point_sampling(points, count, [first])

@@ -26,6 +26,14 @@ def mesh_area(vertices: NDArray[np.float64], faces: NDArray[np.int64]) -> float:
     return float(np.linalg.norm(area_vectors(vertices, faces), axis=1).sum())
 
 
+def circumradii(corners: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return the radii (f,) of the circles through the corners (f, 3, d) of triangles in R^d; infinite without area."""
+    a, b, c = (np.linalg.norm(corners[:, (i + 1) % 3] - corners[:, (i + 2) % 3], axis=1) for i in range(3))
+    squared = (a + b + c) * (b + c - a) * (c + a - b) * (a + b - c)  # of four times the area
+    with np.errstate(divide="ignore", invalid="ignore"):
+        return np.where(squared > 0, a * b * c / np.sqrt(squared), np.inf)
+
+
 def vertex_normals(vertices: NDArray[np.float64], faces: NDArray[np.int64]) -> NDArray[np.float64]:
     """Return unit normals (v, 3) at the vertices; z where there are no faces, or they cancel out.
 

@@ -5,9 +5,12 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+import numpy as np
+from numpy.typing import NDArray
+
 from hdpea import _core
 from hdpea.errors import core_errors_translated
-from hdpea.mesh.extraction import Mesh
+from hdpea.mesh.extraction import Mesh, mask_of
 from hdpea.surface.surface import Surface
 
 
@@ -17,13 +20,14 @@ def find_creases(surface: Surface) -> _core.Creases:
         return _core.find_creases(surface.points_in_unit, surface.normals)
 
 
-def align_to_creases(mesh: Mesh, creases: _core.Creases) -> Mesh:
+def align_to_creases(mesh: Mesh, creases: _core.Creases, fixed: NDArray[np.bool_] | None = None) -> Mesh:
     """Return the mesh with vertices moved onto creases and edges flipped, so that no edge runs across a crease.
 
-    A fit to the points keeps them there, as the points of both sides hold them. Manifoldness and topology stay.
+    A fit to the points keeps them there, as the points of both sides hold them. Manifoldness and topology stay, and so
+    do `fixed` vertices (v,), if any.
     """
     with core_errors_translated():
-        aligned = _core.align_to_creases(mesh.vertices_in_unit, mesh.faces, creases)
+        aligned = _core.align_to_creases(mesh.vertices_in_unit, mesh.faces, creases, mask_of(fixed))
     return replace(mesh, vertices_in_unit=aligned.vertices, faces=aligned.faces)
 
 

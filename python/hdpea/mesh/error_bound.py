@@ -72,21 +72,21 @@ class ErrorBound:
         """The radii (n,) of the points' disks."""
         return disk_radii(self.surface.points_in_unit, self.surface.neighbors)
 
-    def reached(self, mesh: Mesh) -> ReachedError:
-        """Measure how far a mesh and the points are apart, whatever the error."""
+    def reached(self, mesh: Mesh, places: int = PLACES) -> ReachedError:
+        """Measure how far a mesh and the points are apart, whatever the error, at so many `places` of the mesh."""
         points = self.surface.points_in_unit
         nearest = _core.closest_surface_points(mesh.vertices_in_unit, mesh.faces, points)
-        return ReachedError(float(nearest.distance.max()), float(self._of_places(mesh).max(initial=0)))
+        return ReachedError(float(nearest.distance.max()), float(self._of_places(mesh, places).max(initial=0)))
 
     def kept_by(self, mesh: Mesh) -> bool:
         """Return whether a mesh keeps the error, but for rounding."""
         return self.reached(mesh).larger <= self.error * ROUNDING
 
-    def _of_places(self, mesh: Mesh) -> NDArray[np.float64]:
-        """Return the distances of places of a mesh from the disks of their nearest points."""
+    def _of_places(self, mesh: Mesh, count: int) -> NDArray[np.float64]:
+        """Return how far `count` places of a mesh, and its vertices, are from the disks of their nearest points."""
         places = mesh.vertices_in_unit
         if mesh_area(mesh.vertices_in_unit, mesh.faces) > 0:
-            places = np.vstack([places, sample_surface(mesh.vertices_in_unit, mesh.faces, PLACES).points])
+            places = np.vstack([places, sample_surface(mesh.vertices_in_unit, mesh.faces, count).points])
         points = self.surface.points_in_unit
         nearest = _core.nearest_neighbors(points, places, min(NEAREST, len(points)))
         distances = np.empty(len(places))

@@ -59,6 +59,11 @@ class Mesh:
     self_intersections: int | None = None
 
 
+def mask_of(vertices: NDArray[np.bool_] | None) -> NDArray[np.bool_]:
+    """Return a mask of vertices (v,) as the core takes it: empty if there is none."""
+    return np.zeros(0, dtype=bool) if vertices is None else vertices
+
+
 def extract_mesh(
     particles: Particles,
     bases: NDArray[np.float64],
@@ -95,17 +100,49 @@ def extract_mesh(
         why = f"{DISK_RADIUS:g} mean distances of the particles in the embedding; more where they are sparse"
         smallest = float(radii.min()) * surface.frame.diagonal
         disks = Choice("disk_radius", smallest, "world units under the metric", why)
-        limits = _core.ExtractionOptions()
-        limits.min_component_faces = min(round(options.min_component / share_kept), len(candidates.triangles))
-        extracted = _core.extract_manifold(particles.coordinates, normals, radii, on_points, limits)
-        if len(extracted.faces) == 0:
-            raise CannotReconstruct(
-                "No triangle holds on these points.", "They may be too few or too noisy; try fewer `particles`."
-            )
-        coordinates = particles.coordinates[extracted.sources]
-        mesh = _fill_holes(coordinates, extracted, surface.frame, options, resolution)
+        mesh = join_triangles(
+            on_points, particles.coordinates, normals, radii, surface.frame, options, share_kept, resolution
+        )
         refused = {"refused_uncovered": len(candidates.triangles) - len(on_points.triangles)}
         return replace(mesh, statistics=refused | mesh.statistics, choices=(disks, *mesh.choices))
+
+
+def join_triangles(
+    candidates: _core.Candidates,
+    coordinates: NDArray[np.float64],
+    normals: NDArray[np.float64],
+    radii: NDArray[np.float64],
+    frame: UnitFrame,
+    options: MeshingOptions,
+    share_kept: float,
+    resolution: int,
+) -> Mesh:
+    """Choose a manifold mesh from candidate triangles, and fill its holes.
+
+    Parameters
+    ----------
+    coordinates
+        (m, d) of the particles, positions first, d >= 3.
+    normals
+        (m, 3) unit, of their points.
+    radii
+        (m,) of the disks that the cells were cut from, in R^d.
+    share_kept, resolution
+        As for ``extract_mesh``.
+
+    Raises
+    ------
+    CannotReconstruct
+        If no triangle can be made.
+    """
+    limits = _core.ExtractionOptions()
+    limits.min_component_faces = min(round(options.min_component / share_kept), len(candidates.triangles))
+    extracted = _core.extract_manifold(coordinates, normals, radii, candidates, limits)
+    if len(extracted.faces) == 0:
+        raise CannotReconstruct(
+            "No triangle holds on these points.", "They may be too few or too noisy; try fewer `particles`."
+        )
+    return _fill_holes(coordinates[extracted.sources], extracted, frame, options, resolution)
 
 
 def _fill_holes(

@@ -115,6 +115,8 @@ def spread_particles(
     options: ParticleOptions | None = None,
     progress: PhaseCallback | None = None,
     device: str = EmbeddingOptions.device,
+    placed: Particles | None = None,
+    free: NDArray[np.bool_] | None = None,
 ) -> Particles:
     """Spread `count` particles evenly over a surface in R^d.
 
@@ -133,37 +135,66 @@ def spread_particles(
         (n, k >= 12) int64 along the surface, nearest first, padded with -1.
     device
         On which the particles take their steps; their neighbours are found on the CPU.
+    placed
+        Particles that are there already and stay where they are, beside which `count` others spread.
+    free
+        (n,) bool: the points without these, from which the others begin, at least `count`.
+
+    Returns
+    -------
+    Particles
+        The `count` that were spread.
     """
     import torch
 
     options = options or ParticleOptions()
     iterations = ITERATIONS if options.iterations is None else options.iterations
     with core_errors_translated():
-        seeds = _core.farthest_point_sampling(coordinates, count, options.seed % len(coordinates))
-        seeds = seeds[spatial_order(coordinates[seeds, :3])]
-        cells, _ = restricted_cells(coordinates[seeds], bases[seeds], AREA_DISK_RADIUS)
-        squared_width = KERNEL_WIDTH**2 * float(cells.cell_areas.sum()) / count
+        seeds = _seeds(coordinates, count, options.seed, placed, free)
+        beside = Particles(coordinates[:0], seeds[:0]) if placed is None else placed
+        starts = np.vstack([coordinates[seeds], beside.coordinates])
+        cells, _ = restricted_cells(starts, bases[np.concatenate([seeds, beside.nearest])], AREA_DISK_RADIUS)
+        squared_width = KERNEL_WIDTH**2 * float(cells.cell_areas.sum()) / len(starts)
         cloud = _Cloud(coordinates, bases, neighbors, torch_device(device))
         nearest = torch.from_numpy(seeds).to(cloud.points.device)  # (m,)
         x = cloud.points[nearest]  # (m, d)
+        still = torch.from_numpy(beside.coordinates).to(x.device)  # (p, d)
         velocity = torch.zeros_like(x)  # (m, d)
         for step in range(iterations):
             if progress is not None and not progress(step / iterations):
                 raise _core.Cancelled("cancelled")
             if step % REFRESH == 0:
-                found = _core.nearest_neighbors(x.cpu().numpy(), min(INTERACTIONS, count - 1))
-                others = torch.from_numpy(found).to(x.device)  # (m, k)
+                found = _core.nearest_neighbors(torch.cat([x, still]).cpu().numpy(), min(INTERACTIONS, len(starts) - 1))
+                others = torch.from_numpy(found[:count]).to(x.device)  # (m, k)
             size = STEP * DECAY ** (step // DECAY_EVERY)
-            velocity = MOMENTUM * velocity + size * _force(x, others, squared_width)
+            velocity = MOMENTUM * velocity + size * _force(x, torch.cat([x, still])[others], squared_width)
             moved, nearest = cloud.project(x + velocity, nearest)
             # What the projection took away must not push on in the next step.
             velocity, x = moved - x, moved
     return Particles(x.cpu().numpy(), nearest.cpu().numpy())
 
 
+def _seeds(
+    coordinates: NDArray[np.float64],
+    count: int,
+    seed: int,
+    placed: Particles | None,
+    free: NDArray[np.bool_] | None,
+) -> NDArray[np.int64]:
+    """Return points (count,) far from each other, and from the particles that are placed, in the order of space."""
+    if placed is None or free is None:
+        seeds = _core.farthest_point_sampling(coordinates, count, [seed % len(coordinates)])
+    else:
+        given = np.unique(placed.nearest)
+        rows = np.concatenate([given, np.setdiff1d(np.flatnonzero(free), given)])
+        first = list(range(len(given)))
+        seeds = rows[_core.farthest_point_sampling(coordinates[rows], len(first) + count, first)[len(first) :]]
+    return np.asarray(seeds[spatial_order(coordinates[seeds, :3])])
+
+
 def _force(x: torch.Tensor, others: torch.Tensor, squared_width: float) -> torch.Tensor:
-    """Return sigma^2 times the force on each particle (m, d): the negative gradient of its energy."""
-    apart = x[:, None] - x[others]  # (m, k, d)
+    """Return sigma^2 times the force on each particle (m, d) by `others` (m, k, d): its energy's negative gradient."""
+    apart = x[:, None] - others  # (m, k, d)
     kernel = (apart.square().sum(dim=-1) / (-4 * squared_width)).exp()  # (m, k)
     return (kernel[:, None] @ apart)[:, 0]
 

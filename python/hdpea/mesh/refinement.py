@@ -5,9 +5,12 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+import numpy as np
+from numpy.typing import NDArray
+
 from hdpea import _core
 from hdpea.errors import core_errors_translated
-from hdpea.mesh.extraction import Mesh
+from hdpea.mesh.extraction import Mesh, mask_of
 from hdpea.options import RefinementOptions
 from hdpea.runtime.progress import PhaseCallback
 from hdpea.surface.surface import Surface
@@ -18,10 +21,11 @@ def refine_mesh(
     surface: Surface,
     options: RefinementOptions | None = None,
     progress: PhaseCallback | None = None,
+    fixed: NDArray[np.bool_] | None = None,
 ) -> Mesh:
     """Return the mesh with its vertices moved so that the faces run through the points (least squares).
 
-    Faces, and with them manifoldness and topology, stay as they are.
+    Faces, and with them manifoldness and topology, stay as they are, and so do `fixed` vertices (v,), if any.
     """
     options = options or RefinementOptions()
     if not options.refine:
@@ -30,6 +34,6 @@ def refine_mesh(
     fit.rounds = options.rounds
     with core_errors_translated():
         vertices = _core.refine_vertices(
-            mesh.vertices_in_unit, mesh.faces, surface.points_in_unit, surface.normals, fit, progress
+            mesh.vertices_in_unit, mesh.faces, surface.points_in_unit, surface.normals, fit, progress, mask_of(fixed)
         )
     return replace(mesh, vertices_in_unit=vertices)

@@ -9,20 +9,30 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+import numpy as np
+from numpy.typing import NDArray
+
 from hdpea import _core
 from hdpea.errors import core_errors_translated
-from hdpea.mesh.extraction import Mesh
+from hdpea.mesh.extraction import Mesh, mask_of
 from hdpea.options import MeshingOptions
 from hdpea.runtime.progress import PhaseCallback
 from hdpea.surface.surface import Surface
 
 
-def simplify_mesh(mesh: Mesh, surface: Surface, options: MeshingOptions, progress: PhaseCallback | None = None) -> Mesh:
+def simplify_mesh(
+    mesh: Mesh,
+    surface: Surface,
+    options: MeshingOptions,
+    progress: PhaseCallback | None = None,
+    fixed: NDArray[np.bool_] | None = None,
+) -> Mesh:
     """Return the mesh with edges collapsed until it has no more vertices, or faces, than are wanted.
 
     The cheapest edge goes first; its cost is the squared distance from the tangent planes of the points that it stands
     for (Garland and Heckbert 1997) and the loss of evenness in the embedding. The topology stays, so that a budget may
-    be out of reach.
+    be out of reach. Edges at `fixed` vertices (v,), if any, are not collapsed; the order of the vertices that are left
+    stays.
     """
     budget = _core.MeshBudget()
     if options.vertices is not None:
@@ -38,6 +48,7 @@ def simplify_mesh(mesh: Mesh, surface: Surface, options: MeshingOptions, progres
             surface.normals,
             budget,
             progress,
+            mask_of(fixed),
         )
     return simplified(mesh, small)
 

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from hdpea.errors import UnreadableInput
 from hdpea.reading.arrays import ALWAYS_UNPACKED, MOST_UNPACKED
 from hdpea.reading.cloud import PointCloud, from_columns
+from hdpea.reading.names import NORMAL_NAMES, plain_name
 
 CHUNK = 1_000_000
 """Points decoded at a time: the file and its points are in memory, nothing else of their size."""
@@ -75,7 +76,15 @@ def parse_las(data: bytes) -> PointCloud:
     withheld = start - int(kept.sum())
     notes = [f"Left out points that are withheld: {withheld:,}."] if withheld else []
     cloud = from_columns(filled, f"{'LAZ' if header.are_points_compressed else 'LAS'} {header.version}", notes)
-    return PointCloud(cloud.points, cloud.normals, cloud.attributes, cloud.format, cloud.notes, crs=_crs(told))
+    return PointCloud(cloud.points, cloud.normals, cloud.attributes, cloud.format, cloud.notes, crs=crs_of(told))
+
+
+def parse_las_chunk(chunk: Any) -> PointCloud:
+    """Return the points of a chunk, as laspy reads it, with their normals, without those that are withheld."""
+    names = [name for name in chunk.point_format.dimension_names if name not in _GRID]
+    kept = ~np.asarray(chunk["withheld"]).astype(bool) if "withheld" in names else np.ones(len(chunk), bool)
+    normals = [name for name in names if any(plain_name(name) in each for each in NORMAL_NAMES)]
+    return from_columns({name: np.asarray(chunk[name])[kept] for name in ("x", "y", "z", *normals)}, "LAS")
 
 
 def _chunks(data: bytes, start: int) -> int:
@@ -97,7 +106,7 @@ def _require_room(announced: int, most: int) -> None:
         )
 
 
-def _crs(vlrs: Iterable[Any]) -> str | None:
+def crs_of(vlrs: Iterable[Any]) -> str | None:
     """Return the coordinate reference system as WKT, or as an EPSG code."""
     keys: dict[int, int] = {}
     for vlr in vlrs:

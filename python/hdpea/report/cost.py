@@ -42,3 +42,9 @@ PEAK_BYTES = Cost(fixed=245e6, per_thousand_points=0.8e6, per_thousand_vertices=
 def seconds_of_run(points: int, vertices: int, oriented: bool) -> float:
     """Return the seconds of a run on a cloud whose normals are `oriented`, such that their signs will be kept."""
     return SECONDS.of(points, vertices) + (0 if oriented else ORIENTING_SECONDS.of(points, vertices))
+
+
+def points_within(memory: float, points_per_vertex: float) -> int:
+    """Return the points of the largest cloud that a run has room for in so many bytes, at so many points per vertex."""
+    each = PEAK_BYTES.per_thousand_points + PEAK_BYTES.per_thousand_vertices / points_per_vertex
+    return max(int(1000 * (memory - PEAK_BYTES.fixed) / each), 0)

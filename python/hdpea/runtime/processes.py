@@ -7,8 +7,7 @@ import os
 import signal
 import threading
 import time
-from collections import deque
-from collections.abc import Callable, Generator, Sequence
+from collections.abc import Callable, Collection, Generator, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from math import inf
@@ -33,7 +32,12 @@ class Outcome(Generic[Result]):
 
 
 def run_isolated(
-    function: Callable[[Task], Result], tasks: Sequence[Task], jobs: int, time_limit: float = inf, fresh: bool = False
+    function: Callable[[Task], Result],
+    tasks: Sequence[Task],
+    jobs: int,
+    time_limit: float = inf,
+    fresh: bool = False,
+    after: Sequence[Collection[int]] = (),
 ) -> Generator[Outcome[Result], None, None]:
     """Apply `function` to every task, `jobs` at a time; yield the outcomes as they come, in any order.
 
@@ -46,27 +50,46 @@ def run_isolated(
         Of a module, since the processes import it; tasks and results must be picklable.
     fresh
         Whether each task has a process of its own, so that no memory of one is held during the next.
+    after
+        For each task, the numbers of those that must have succeeded before it begins, if any; where one of them fails,
+        the task is left out.
     """
-    waiting = deque(enumerate(tasks))
+    waiting = _Waiting(tasks, after)
     workers = [_Worker(function, fresh) for _ in range(min(jobs, len(tasks)))]
     try:
-        busy = [worker for worker in workers if worker.take(waiting)]
-        while busy:
+        while busy := [worker for worker in workers if not worker.idle or worker.take(waiting)]:
             soonest = min(worker.started for worker in busy) + time_limit - time.monotonic()
             ready = wait([worker.connection for worker in busy], None if soonest == inf else max(soonest, 0))
             for worker in busy:
                 if worker.connection in ready:
-                    yield worker.outcome()
+                    outcome = worker.outcome()
+                    if not outcome.failed:
+                        waiting.succeeded.add(outcome.index)
+                    yield outcome
                 elif worker.seconds() > time_limit:
                     worker.end()
                     yield Outcome(worker.index, worker.seconds(), failed=f"It took longer than {time_limit:g} s.")
                 else:
                     continue
                 worker.idle = True
-            busy = [worker for worker in busy if not worker.idle or worker.take(waiting)]
     finally:
         for worker in workers:
             worker.end()
+
+
+class _Waiting(Generic[Task]):
+    """The tasks that have not begun, first to last, and the numbers of those that have succeeded."""
+
+    def __init__(self, tasks: Sequence[Task], after: Sequence[Collection[int]]) -> None:
+        self._tasks, self._after = dict(enumerate(tasks)), after
+        self.succeeded: set[int] = set()
+
+    def next(self) -> tuple[int, Task] | None:
+        """Take out the first task that may begin; None if there is none."""
+        for index in self._tasks:
+            if not self._after or self.succeeded.issuperset(self._after[index]):
+                return index, self._tasks.pop(index)
+        return None
 
 
 class _Worker(Generic[Task, Result]):
@@ -85,16 +108,17 @@ class _Worker(Generic[Task, Result]):
         self._process.start()
         theirs.close()
 
-    def take(self, waiting: deque[tuple[int, Task]]) -> bool:
-        """Begin the next task; False if there is none."""
-        if not waiting:
+    def take(self, waiting: _Waiting[Task]) -> bool:
+        """Begin the next task; False if none may begin."""
+        following = waiting.next()
+        if following is None:
             return False
         if self._fresh and self._used:
             self.end()
         if not self._process.is_alive():
             self._start()
         self._used = True
-        self.index, task = waiting.popleft()
+        self.index, task = following
         self.started, self.idle = time.monotonic(), False
         self.connection.send(task)
         return True

@@ -9,6 +9,7 @@ void register_manifold_extraction(nb::module_& module) {
   using hdpea::ExtractionOptions;
   nb::class_<ExtractionOptions>(module, "ExtractionOptions", "What is refused; angles in degrees.")
       .def(nb::init<>())
+      .def_ro("max_circumradius", &ExtractionOptions::max_circumradius)
       .def_rw("min_component_faces", &ExtractionOptions::min_component_faces);
   nb::class_<ExtractionCounts>(module, "ExtractionCounts",
                                "How many candidates were kept, and why the others were refused.")

@@ -9,6 +9,6 @@ void register_refinement(nb::module_& module) {
       .def(nb::init<>())
       .def_rw("rounds", &RefinementOptions::rounds);
   module.def("refine_vertices", &hdpea::refine_vertices, "vertices"_a, "faces"_a, "points"_a, "normals"_a, "options"_a,
-             "progress"_a = nb::none(), ReleaseGil(),
+             "progress"_a = nb::none(), "fixed"_a = hdpea::Mask(), ReleaseGil(),
              "Move the vertices so that the faces run through the cloud, by least squares.");
 }

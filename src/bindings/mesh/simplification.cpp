@@ -19,10 +19,11 @@ void register_simplification(nb::module_& module) {
       "simplify_mesh",
       [](const hdpea::PointsRef& vertices, const hdpea::CoordinatesRef& coordinates, const hdpea::FacesRef& faces,
          const hdpea::PointsRef& points, const hdpea::PointsRef& normals, const MeshBudget& budget,
-         const hdpea::Progress& progress) {
-        return hdpea::simplify_mesh(vertices, coordinates, faces, points, normals, budget, {}, progress);
+         const hdpea::Progress& progress, const hdpea::MaskRef& fixed) {
+        return hdpea::simplify_mesh(vertices, coordinates, faces, points, normals, budget, {}, progress, fixed);
       },
       "vertices"_a, "coordinates"_a, "faces"_a, "points"_a, "normals"_a, "budget"_a, "progress"_a = nb::none(),
+      "fixed"_a = hdpea::Mask(),
       ReleaseGil(), "Collapse edges, the cheapest first, until a mesh is small enough.");
   module.def(
       "simplify_within",

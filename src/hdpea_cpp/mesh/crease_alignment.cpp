@@ -66,8 +66,8 @@ struct Crossing {
 
 class Alignment {
  public:
-  Alignment(const PointsRef& vertices, const FacesRef& faces, const Creases& creases)
-      : creases_(creases), lines_(creases), mesh_(faces, vertices.rows()), vertices_(vertices) {
+  Alignment(const PointsRef& vertices, const FacesRef& faces, const Creases& creases, const MaskRef& fixed)
+      : creases_(creases), lines_(creases), mesh_(faces, vertices.rows()), vertices_(vertices), fixed_(fixed) {
     held_.assign(static_cast<std::size_t>(vertices.rows()), false);
     lengths_ = mean_lengths();
     near_ = lines_.near(vertices_);
@@ -134,6 +134,7 @@ class Alignment {
 
   /// Moves a vertex onto a crease unless that would turn a face over or squash it.
   bool move(Index v, const Vector& to) {
+    if (fixed_.size() > 0 && fixed_(v)) return false;
     const Vector from = at(v);
     const std::vector<Index> around = mesh_.faces_around(v);
     std::vector<Vector> before;
@@ -270,6 +271,7 @@ class Alignment {
   CreasesNearby lines_;
   FlippableMesh mesh_;
   Points vertices_;
+  Mask fixed_;
   std::vector<char> held_;  // whether each vertex lies on a crease
   Eigen::VectorXd lengths_;
   Neighbors near_;  // samples of creases near each vertex as it was
@@ -278,10 +280,12 @@ class Alignment {
 
 }  // namespace
 
-AlignedMesh align_to_creases(const PointsRef& vertices, const FacesRef& faces, const Creases& creases) {
+AlignedMesh align_to_creases(const PointsRef& vertices, const FacesRef& faces, const Creases& creases,
+                             const MaskRef& fixed) {
   require_mesh(vertices, faces);
+  if (fixed.size() > 0) require_rows(fixed, vertices.rows(), "fixed");
   if (creases.samples.empty() || faces.rows() == 0) return {vertices, faces};
-  return Alignment(vertices, faces, creases).run();
+  return Alignment(vertices, faces, creases, fixed).run();
 }
 
 Edges crease_edges(const PointsRef& vertices, const FacesRef& faces, const Creases& creases) {

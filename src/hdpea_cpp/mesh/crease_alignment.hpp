@@ -24,8 +24,10 @@ struct AlignedMesh {
 ///
 /// @param vertices  (v, 3)
 /// @param faces     (f, 3) edge- and vertex-manifold, oriented as the normals of the creases
+/// @param fixed     (v) vertices that stay where they are, or empty: none
 /// @throws InvalidArgument on a broken contract
-AlignedMesh align_to_creases(const PointsRef& vertices, const FacesRef& faces, const Creases& creases);
+AlignedMesh align_to_creases(const PointsRef& vertices, const FacesRef& faces, const Creases& creases,
+                             const MaskRef& fixed = Mask());
 
 /// The edges of a mesh that run along creases, with 30 degrees or more between their faces.
 ///

@@ -16,8 +16,14 @@ constexpr int kCorrections = 4;
 }  // namespace
 
 EdgeCollapses::EdgeCollapses(EditableMesh& mesh, std::vector<SurfacePart>& parts, const CollapseCost& cost,
-                             PointLinks* links)
-    : mesh_(mesh), parts_(parts), cost_(cost), links_(links), version_(parts.size(), 0), refused_(parts.size()) {
+                             PointLinks* links, const MaskRef& fixed)
+    : mesh_(mesh),
+      parts_(parts),
+      cost_(cost),
+      links_(links),
+      fixed_(fixed),
+      version_(parts.size(), 0),
+      refused_(parts.size()) {
   for (Index a = 0; a < mesh.vertex_numbers(); ++a) {
     if (!mesh.has_vertex(a)) continue;
     for (Index b : mesh.neighbors(a)) {
@@ -32,6 +38,7 @@ Eigen::Vector3d EdgeCollapses::place_of(Index a, Index b) const {
 }
 
 void EdgeCollapses::offer(Index a, Index b) {
+  if (fixed_.size() > 0 && (fixed_(a) || fixed_(b))) return;
   if (a > b) std::swap(a, b);
   const double away = joined(parts_[a], parts_[b]).squared_distance(place_of(a, b));
   const double cost = away + cost_.evenness * variance_growth(parts_[a], parts_[b]);

@@ -23,7 +23,9 @@ struct CollapseCost {
 class EdgeCollapses {
  public:
   /// @param links  nullptr if no error is to be kept
-  EdgeCollapses(EditableMesh& mesh, std::vector<SurfacePart>& parts, const CollapseCost& cost, PointLinks* links);
+  /// @param fixed  vertices whose edges are not collapsed, or empty
+  EdgeCollapses(EditableMesh& mesh, std::vector<SurfacePart>& parts, const CollapseCost& cost, PointLinks* links,
+                const MaskRef& fixed = Mask());
 
   /// Collapses one edge; false if there is none that may be.
   bool collapse_next();
@@ -48,6 +50,7 @@ class EdgeCollapses {
   std::vector<SurfacePart>& parts_;
   CollapseCost cost_;
   PointLinks* links_;
+  Mask fixed_;
   std::priority_queue<Candidate> candidates_;
   std::vector<Index> version_;
   std::vector<std::vector<Index>> refused_;  ///< of each vertex: the other ends of its edges that wait

@@ -141,12 +141,14 @@ Points take_safe_step(const Points& from, const Points& to, const FacesRef& face
 }  // namespace
 
 Points refine_vertices(const PointsRef& vertices, const FacesRef& faces, const PointsRef& points,
-                       const PointsRef& normals, const RefinementOptions& options, const Progress& progress) {
+                       const PointsRef& normals, const RefinementOptions& options, const Progress& progress,
+                       const MaskRef& fixed) {
   require(faces.rows() >= 1 && points.rows() >= 1, "a fit needs at least one face and one point");
   require_mesh(vertices, faces);
   require_finite(vertices, "vertices", kLargestToTheFourth);
   require_finite(points, "points", kLargestToTheFourth);
   require_rows(normals, points.rows(), "normals");
+  if (fixed.size() > 0) require_rows(fixed, vertices.rows(), "fixed");
   require_finite(normals, "normals");
   require(options.rounds >= 0 && options.pull > 0 && options.max_gap > 0,
           "rounds must be 0 or more, pull and max_gap positive");
@@ -156,6 +158,9 @@ Points refine_vertices(const PointsRef& vertices, const FacesRef& faces, const P
     report(progress, static_cast<double>(round) / static_cast<double>(options.rounds));
     Points fitted = fitted_vertices(refined, faces, points, normals, options);
     stay_near(points, refined, gap, fitted);
+    for (Index v = 0; v < fixed.size(); ++v) {
+      if (fixed(v)) fitted.row(v) = refined.row(v);
+    }
     refined = take_safe_step(refined, fitted, faces, options);
   }
   report(progress, 1);

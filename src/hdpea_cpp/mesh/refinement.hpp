@@ -26,9 +26,11 @@ struct RefinementOptions {
 /// @param faces     (f, 3) oriented as the normals
 /// @param points    (n, 3)
 /// @param normals   (n, 3) unit
+/// @param fixed     (v) vertices that stay where they are, or empty: none
 /// @returns (v, 3)
 /// @throws InvalidArgument on a broken contract; Cancelled
 Points refine_vertices(const PointsRef& vertices, const FacesRef& faces, const PointsRef& points,
-                       const PointsRef& normals, const RefinementOptions& options, const Progress& progress = {});
+                       const PointsRef& normals, const RefinementOptions& options, const Progress& progress = {},
+                       const MaskRef& fixed = Mask());
 
 }  // namespace hdpea

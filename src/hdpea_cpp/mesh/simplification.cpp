@@ -83,12 +83,13 @@ void split_beyond(EditableMesh& mesh, std::vector<SurfacePart>& parts, const std
 
 SimplifiedMesh simplify_mesh(const PointsRef& vertices, const CoordinatesRef& coordinates, const FacesRef& faces,
                              const PointsRef& points, const PointsRef& normals, const MeshBudget& budget,
-                             const SimplificationOptions& options, const Progress& progress) {
+                             const SimplificationOptions& options, const Progress& progress, const MaskRef& fixed) {
+  if (fixed.size() > 0) require_rows(fixed, vertices.rows(), "fixed");
   require(budget.vertices >= 0 && budget.faces >= 0, "the budget must be 0 or more vertices and faces");
   check_contract(vertices, coordinates, faces, points, normals, options);
   EditableMesh mesh(vertices, faces);
   std::vector<SurfacePart> parts = parts_of(vertices, coordinates, faces, points, normals, options.border);
-  EdgeCollapses collapses(mesh, parts, {options.evenness, options.pull}, nullptr);
+  EdgeCollapses collapses(mesh, parts, {options.evenness, options.pull}, nullptr, fixed);
   const Index first = excess(mesh, budget);
   Index next = first;
   for (Index left = first; left > 0; left = excess(mesh, budget)) {

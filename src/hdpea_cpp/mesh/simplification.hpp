@@ -44,10 +44,12 @@ struct SimplifiedMesh {
 /// @param faces        (f, 3) edge- and vertex-manifold, oriented
 /// @param points       (n, 3), n >= 0
 /// @param normals      (n, 3) unit
+/// @param fixed        (v) vertices that stay where they are, or empty: none
 /// @throws InvalidArgument on a broken contract; Cancelled
 SimplifiedMesh simplify_mesh(const PointsRef& vertices, const CoordinatesRef& coordinates, const FacesRef& faces,
                              const PointsRef& points, const PointsRef& normals, const MeshBudget& budget,
-                             const SimplificationOptions& options, const Progress& progress = {});
+                             const SimplificationOptions& options, const Progress& progress = {},
+                             const MaskRef& fixed = Mask());
 
 /// Collapses edges as long as the mesh stays within an error of the points, both ways.
 ///

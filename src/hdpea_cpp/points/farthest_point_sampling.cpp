@@ -28,7 +28,14 @@ class FarthestTree {
     points_ = points(index_, Eigen::all);
   }
 
-  Index position(Index index) const { return std::find(index_.begin(), index_.end(), index) - index_.begin(); }
+  /// Of each of these indices.
+  std::vector<Index> positions(const std::vector<Index>& indices) const {
+    std::vector<Index> position(index_.size()), found;
+    for (std::size_t p = 0; p < index_.size(); ++p) position[index_[p]] = static_cast<Index>(p);
+    for (Index index : indices) found.push_back(position[index]);
+    return found;
+  }
+  bool is_sample(Index position) const { return distance_[position] == sampled; }
   Index index(Index position) const { return index_[position]; }
   Index farthest() const { return nodes_[0].farthest; }
 
@@ -111,20 +118,23 @@ class FarthestTree {
 
 }  // namespace
 
-Eigen::Vector<Index, Eigen::Dynamic> farthest_point_sampling(const CoordinatesRef& points, Index count, Index first,
+Eigen::Vector<Index, Eigen::Dynamic> farthest_point_sampling(const CoordinatesRef& points, Index count,
+                                                             const std::vector<Index>& first,
                                                              const Progress& progress) {
   require(points.cols() >= 1, "points must have at least one coordinate");
   require(count >= 1 && count <= points.rows(), "the number of samples must lie between 1 and the number of points");
   require_finite(points, "points");
-  require(first >= 0 && first < points.rows(), "the first sample must be one of the points");
+  require(!first.empty() && static_cast<Index>(first.size()) <= count, "there must be 1 to `count` first samples");
+  for (Index each : first) require(each >= 0 && each < points.rows(), "the first samples must be among the points");
   FarthestTree tree(points);
   Eigen::Vector<Index, Eigen::Dynamic> samples(count);
-  Index position = tree.position(first);
+  const std::vector<Index> given = tree.positions(first);
   for (Index i = 0; i < count; ++i) {
     if (i % samples_per_report == 0) report(progress, static_cast<double>(i) / static_cast<double>(count));
+    const Index position = i < static_cast<Index>(given.size()) ? given[i] : tree.farthest();
+    require(!tree.is_sample(position), "the first samples must all be different");
     samples(i) = tree.index(position);
     tree.add_sample(position);
-    position = tree.farthest();
   }
   report(progress, 1);
   return samples;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <vector>
+
 #include "hdpea_cpp/base/types.hpp"
 
 namespace hdpea {
@@ -13,11 +15,13 @@ namespace hdpea {
 ///
 /// @param points    (n, d), finite
 /// @param count     how many samples, 1 <= count <= n
-/// @param first     index of the first sample
+/// @param first     indices of the first samples, which are taken as they are: at least one, at most `count`, all
+///                  different
 /// @param progress  may be empty
 /// @returns (count) indices into points, all different, in the order of sampling
 /// @throws InvalidArgument if count or first is out of range
-Eigen::Vector<Index, Eigen::Dynamic> farthest_point_sampling(const CoordinatesRef& points, Index count, Index first,
+Eigen::Vector<Index, Eigen::Dynamic> farthest_point_sampling(const CoordinatesRef& points, Index count,
+                                                             const std::vector<Index>& first,
                                                              const Progress& progress = {});
 
 }  // namespace hdpea

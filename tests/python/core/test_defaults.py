@@ -19,6 +19,7 @@ IN_PYTHON = {
 OF_THE_CORE = {
     ("EmbeddingOptions", "bending_length"),  # always set, from the spacing of the particles
     ("EmbeddingOptions", "iterations"),
+    ("ExtractionOptions", "max_circumradius"),  # read only, for tiles
     ("JetOptions", "curvature_error"),
     ("JetOptions", "direction_error"),
     ("MeshBudget", "faces"),

@@ -54,6 +54,17 @@ def test_spacings_hardly_vary(shape: str) -> None:
     assert start > 1.5 * spread
 
 
+def test_particles_spread_beside_those_that_are_placed() -> None:
+    cloud = embedded("sphere")
+    whole = cloud.spread(375)
+    left = whole.coordinates[:, 0] < 0
+    placed = Particles(whole.coordinates[left], whole.nearest[left])
+    count, free = int((~left).sum()), cloud.coordinates[:, 0] >= 0
+    others = spread_particles(cloud.coordinates, cloud.bases, cloud.surface.neighbors, count, placed=placed, free=free)
+    assert (others.coordinates[:, 0] > -0.1).all()
+    assert variation(np.vstack([placed.coordinates, others.coordinates])) < 0.09
+
+
 def test_tangent_bases_are_orthonormal_and_tangent() -> None:
     cloud = embedded("sphere")
     np.testing.assert_allclose(

@@ -22,6 +22,14 @@ def test_every_task_has_its_outcome(jobs: int) -> None:
     assert list(run_isolated(math.factorial, [], jobs, 60)) == []
 
 
+def test_a_task_waits_for_others_and_is_left_out_if_one_of_them_fails() -> None:
+    after: list[set[int]] = [{1}, set(), {3}, set()]
+    outcomes = list(run_isolated(math.factorial, [3, 4, 5, -1], 2, 60, after=after))
+    order = [each.index for each in outcomes]
+    assert sorted(order) == [0, 1, 3]
+    assert order.index(1) < order.index(0)
+
+
 def test_a_process_that_ends_costs_its_task_only() -> None:
     outcomes = list(run_isolated(os._exit, [3, 4], 1, 60))
     assert [each.failed for each in outcomes] == [

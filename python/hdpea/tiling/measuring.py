@@ -1,0 +1,72 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""How far the points of a tile are from the finished mesh, and the mesh from them."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from hdpea.geometry.triangles import mesh_area
+from hdpea.mesh.error_bound import PLACES, ErrorBound
+from hdpea.mesh.extraction import Mesh
+from hdpea.report.achieved_error import AchievedError
+from hdpea.report.agreement import Agreement, agreement_of, distances_to
+from hdpea.report.report import Distances
+from hdpea.tiling.work import Agreed, Work, surface_of
+
+BEYOND = 1.5
+"""How much of the mesh around its box a tile's points are compared with, in halos: these are on the mesh as well."""
+
+LEAST_PLACES = 5_000
+"""Fewest places at which the mesh of a tile is compared with the points: of all tiles as many as of one piece."""
+
+
+def measure(work: Work, tile: int) -> None:
+    """Compare the points of a tile with the mesh around it, and the mesh in its box with the points around that."""
+    kept, agreed, surface = work.folder.load("prepared", tile), Agreed.of(work), surface_of(work, tile)
+    around, own = (_part_of_mesh(work, tile, beyond) for beyond in (BEYOND * work.plan.halo, 0.0))
+    given = replace(surface, points_in_unit=np.ascontiguousarray(kept["given"][kept["own"]]))
+    vertices = max(round(len(kept["own"]) / agreed.per_vertex * agreed.vertices / agreed.resolution), 4)
+    facts = {
+        "points_without_mesh": 1.0,
+        "area": mesh_area(own.vertices_in_unit, own.faces),
+        "area_without_points": 0.0,
+        "mesh_to_points": 0.0,
+        "moved": float(np.linalg.norm(kept["points"] - kept["given"], axis=1).max()),
+    }
+    distances = np.full(len(given.points_in_unit), np.inf)
+    if len(around.faces):
+        distances = distances_to(around, given)
+        facts["points_without_mesh"] = agreement_of(around, surface, vertices).points_without_mesh
+    if len(own.faces):
+        facts["area_without_points"] = agreement_of(own, surface, vertices).area_without_points
+        places = max(PLACES // work.plan.tiles, LEAST_PLACES)
+        facts["mesh_to_points"] = ErrorBound(surface, 0.0).reached(own, places).mesh_to_points
+    work.folder.save("measured", tile, {"distances": distances}, facts)
+
+
+def _part_of_mesh(work: Work, tile: int, beyond: float) -> Mesh:
+    """Return the faces of the finished mesh whose middles lie in a tile, or so far beyond it."""
+    whole = work.folder.load("mesh")
+    vertices, faces = whole["vertices"], whole["faces"]
+    faces = faces[work.plan.inside(tile, vertices[faces].mean(axis=1), beyond)]
+    used, numbers = np.unique(faces, return_inverse=True)
+    return Mesh(vertices[used], numbers.reshape(-1, 3), vertices[used], patches=whole["patches"])
+
+
+def measured(work: Work) -> tuple[Distances, Agreement, AchievedError]:
+    """Return what all tiles have measured, in world units."""
+    tiles, diagonal = range(work.plan.tiles), work.plan.frame.diagonal
+    facts = [work.folder.facts("measured", tile) for tile in tiles]
+    each = [work.folder.load("measured", tile)["distances"] for tile in tiles]
+    points, area = np.array([len(some) for some in each]), np.array([some["area"] for some in facts])
+    distances = np.concatenate(each) * diagonal
+    spacing = float(np.average([work.folder.facts("prepared", tile)["spacing"] for tile in tiles], weights=points))
+    agreement = Agreement(
+        float(np.average([some["points_without_mesh"] for some in facts], weights=points)),
+        float(np.average([some["area_without_points"] for some in facts], weights=area)),
+    )
+    mesh_to_points, moved = (diagonal * max(some[name] for some in facts) for name in ("mesh_to_points", "moved"))
+    error = AchievedError(None, float(distances.max()), mesh_to_points, moved)
+    return Distances.of(distances, spacing * diagonal), agreement, error

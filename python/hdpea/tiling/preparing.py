@@ -1,0 +1,75 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The tasks of a tile that need no other: the front end, normals, denoising; and, once sides agree, the embedding."""
+
+from __future__ import annotations
+
+from dataclasses import asdict, replace
+
+import numpy as np
+
+from hdpea.embedding import embed_surface
+from hdpea.frontend.cleaning import surface_cloud
+from hdpea.geometry.spatial_order import spatial_order
+from hdpea.options.embedding import BENDING_LENGTH, CURVATURE_RADIUS
+from hdpea.options.lengths import Length
+from hdpea.reading.cloud import cleaned
+from hdpea.surface.preparation import prepare_surface
+from hdpea.surface.surface import area_shown, areas_shown
+from hdpea.tiling.folder import Arrays
+from hdpea.tiling.intake import tile_cloud
+from hdpea.tiling.work import Agreed, Work, surface_of
+
+
+def prepare(work: Work, tile: int) -> None:
+    """Find the surface of a tile and its halo, with normals that agree within it."""
+    plan, options = work.plan, work.options
+    cloud = cleaned(tile_cloud(work.folder, plan, tile))
+    found = surface_cloud(cloud, options.cleaning)
+    cloud = found.cloud.at(spatial_order(found.cloud.points))
+    per_vertex = plan.points / options.resolution_of(plan.points)
+    prepared = prepare_surface(cloud, options.normals, options.denoising, per_vertex)
+    surface, given = prepared.surface, prepared.oriented.surface
+    points, points_given = (plan.frame.to_unit(each.frame.to_world(each.points_in_unit)) for each in (surface, given))
+    own = plan.inside(tile, points_given)
+    area = areas_shown(points, surface.neighbors)
+    dropped = plan.inside(tile, plan.frame.to_unit(found.dropped.points))
+    facts = {
+        "spacing": surface.spacing * surface.frame.diagonal / plan.frame.diagonal,
+        "points": int(own.sum()),
+        "shown": found.points_shown * float(own.mean()),
+        "area": float(area[own].sum()),
+        "computed_sides": prepared.oriented.computed_sides,
+        "exact": prepared.exact,
+        "estimated": round(prepared.oriented.estimated * float(own.mean())),
+        "dropped": int(dropped.sum()),
+        "known": len(points),
+        "choices": [asdict(choice) for choice in prepared.choices],
+        "missed": list(prepared.missed),
+        # Those with numbers would be as many as there are tiles.
+        "notes": [note for note in prepared.notes if not any(map(str.isdigit, note))],
+    }
+    arrays: Arrays = {
+        "points": points,
+        "given": points_given,
+        "normals": surface.normals,
+        "neighbors": surface.neighbors.astype(np.int32),
+        "own": own,
+    }
+    work.folder.save("prepared", tile, arrays, facts)
+
+
+def embed(work: Work, tile: int) -> None:
+    """Embed a tile and its halo in an R^8 of its own, at the scale that all tiles have."""
+    agreed, surface = Agreed.of(work), surface_of(work, tile)
+    options, spacing = work.options.embedding, agreed.spacing * surface.frame.diagonal
+    options = replace(
+        options,
+        bending_length=options.bending_length or Length(BENDING_LENGTH * spacing),
+        curvature_radius=options.curvature_radius or Length(CURVATURE_RADIUS * spacing),
+    )
+    vertices = max(round(area_shown(surface.points_in_unit, surface.neighbors) / agreed.spacing**2), 4)
+    embedded = embed_surface(surface, vertices, options)
+    own = work.folder.load("prepared", tile)["own"]
+    areas = areas_shown(embedded.coordinates, surface.neighbors)
+    facts = {"area": float(areas[own].sum())}
+    work.folder.save("embedded", tile, {"coordinates": embedded.coordinates, "areas": areas}, facts)

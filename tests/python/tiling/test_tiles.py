@@ -1,0 +1,117 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+import pytest
+from helpers import clouds
+
+from hdpea import _core
+from hdpea.errors import UsageError
+from hdpea.geometry.triangles import area_vectors_of
+from hdpea.geometry.unit_frame import UnitFrame
+from hdpea.options import MeshingOptions, NormalOptions, Options
+from hdpea.reading.cloud import PointCloud
+from hdpea.reading.streaming import PointStream, stream_of_cloud
+from hdpea.result import Reconstruction
+from hdpea.tiling import plan, tasks
+from hdpea.tiling.cells import Cells
+from hdpea.tiling.run import Tiling, reconstruct_in_tiles
+
+POINTS, TILE_POINTS = 6_000, 4_000
+
+
+@pytest.fixture(scope="module", autouse=True)
+def _narrow_halos() -> Iterator[None]:
+    """With halos as usual, tiles of so few points would be all halo."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(plan, "HALO", 5.0)
+        patch.setattr(plan, "HALO_OF_VERTICES", 4.0)
+        yield
+
+
+def torus_stream(normals: bool = True) -> PointStream:
+    points, directions = clouds.torus(POINTS)
+    return stream_of_cloud(PointCloud(points, directions if normals else None, {}), "torus")
+
+
+def made(folder: Path, jobs: int = 1, normals: bool = True) -> Reconstruction:
+    return reconstruct_in_tiles(torus_stream(normals), Tiling(folder / "work", 1e9, jobs, tile_points=TILE_POINTS))
+
+
+@pytest.fixture(scope="module")
+def whole(tmp_path_factory: pytest.TempPathFactory) -> Reconstruction:
+    folder = tmp_path_factory.mktemp("tiles")
+    result = made(folder)
+    assert not (folder / "work").exists()
+    return result
+
+
+def test_a_torus_in_tiles_is_one_closed_surface_with_its_hole(whole: Reconstruction) -> None:
+    assert whole.report.counts["tiles"] == 4
+    mesh = whole.report.mesh
+    assert (mesh.closed, mesh.genus, mesh.components, mesh.vertices) == (True, 1, 1, POINTS // 8)
+    assert whole.report.distances.rms < 0.1 * whole.report.distances.spacing
+
+
+def test_seams_do_not_show(whole: Reconstruction) -> None:
+    points, _ = clouds.torus(POINTS)
+    frame = UnitFrame.around(points)
+    in_unit = frame.to_unit(points)
+    tiles = plan.plan_tiles(Cells.of([in_unit]), frame, Options(), TILE_POINTS)
+    distances = _core.closest_surface_points(whole.vertices, whole.faces, points).distance
+    corners = whole.vertices[whole.faces]
+    spacing = np.sqrt(np.linalg.norm(area_vectors_of(corners), axis=1).sum() / len(whole.vertices)) / frame.diagonal
+    at_seam = sum(tiles.inside(tile, in_unit, 2 * spacing).astype(int) for tile in range(tiles.tiles)) > 1
+    assert 0.1 < at_seam.mean() < 0.6
+    assert np.square(distances[at_seam]).mean() < 1.1**2 * np.square(distances[~at_seam]).mean()
+
+
+def test_processes_that_go_on_with_a_killed_run_give_the_same_bytes(
+    whole: Reconstruction, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def killed(*_: object) -> None:
+        raise KeyboardInterrupt
+
+    finishing = tasks.STAGES["finishing"]
+    monkeypatch.setitem(tasks.STAGES, "finishing", (finishing[0], killed))
+    with pytest.raises(KeyboardInterrupt):
+        made(tmp_path)
+    monkeypatch.setitem(tasks.STAGES, "finishing", finishing)
+    kept = tmp_path / "work" / "particles.0.npz"
+    kept.unlink()  # so that two processes begin in the middle
+    again = made(tmp_path, jobs=2)
+    np.testing.assert_array_equal(again.vertices, whole.vertices)
+    np.testing.assert_array_equal(again.faces, whole.faces)
+
+
+def test_tiles_without_normals_agree_on_the_outside(tmp_path: Path) -> None:
+    mesh = made(tmp_path, normals=False)
+    corners = mesh.vertices[mesh.faces]
+    assert mesh.report.mesh.closed
+    assert np.einsum("fc,fc->", corners[:, 0], np.cross(corners[:, 1], corners[:, 2])) > 0
+
+
+def test_neither_processes_nor_points_far_away_change_the_tiles_beyond_what_memory_says() -> None:
+    alone, four = (Tiling(Path(), 8e9, jobs) for jobs in (1, 4))
+    assert alone.most_points(Options(), 10**8) == four.most_points(Options(), 10**8) > 100_000
+    assert (alone.workers, four.workers, Tiling(Path(), 1e9, 4).workers) == (1, 4, 1)
+    points = np.vstack([np.random.default_rng(0).random((5_000, 3)), [[1e6, 0, 0]]])
+    frame = UnitFrame.around(points)
+    with pytest.raises(UsageError, match="one place"):
+        plan.plan_tiles(Cells.of([frame.to_unit(points)]), frame, Options(), 1_000)
+
+
+@pytest.mark.parametrize("jobs", [1, 2])
+def test_errors_of_tasks_keep_their_kind(tmp_path: Path, jobs: int) -> None:
+    options = Options(normals=NormalOptions(orient="viewpoint"))
+    with pytest.raises(UsageError, match="viewpoint"):
+        reconstruct_in_tiles(torus_stream(), Tiling(tmp_path / "work", 1e9, jobs, tile_points=TILE_POINTS), options)
+
+
+def test_what_tiles_do_not_have_is_refused(tmp_path: Path) -> None:
+    options = Options(meshing=MeshingOptions(watertight=True))
+    with pytest.raises(UsageError, match="watertight"):
+        reconstruct_in_tiles(torus_stream(), Tiling(tmp_path / "work", 1e9), options)
