@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import json
 from dataclasses import asdict
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
@@ -28,13 +29,21 @@ def command(source: str, as_json: bool) -> None:
     """Say what is in the point cloud IN, and what making a mesh of it would take.
 
     That includes what a run would leave out: points that lie on no surface, or crowd on scan lines.
-    Lengths are in the units of the file. IN is as for reconstruct.
+    Lengths are in the units of the file. IN is as for reconstruct. Of a million points and more in
+    LAS, LAZ, COPC or binary PLY a sample is looked at.
     """
-    from hdpea.reading import read_points
-    from hdpea.report.inspection import inspect
-
-    facts = inspect(read_points(source))
+    facts = _facts(source)
     click.echo(json.dumps(asdict(facts), indent=2) if as_json else _describe(facts))
+
+
+def _facts(source: str) -> CloudFacts:
+    from hdpea.reading import read_points
+    from hdpea.reading.streaming import stream_of
+    from hdpea.report.inspection import inspect
+    from hdpea.report.sampling import MOST_WHOLE, inspect_stream
+
+    stream = stream_of(Path(source))
+    return inspect_stream(stream) if stream is not None and stream.count > MOST_WHOLE else inspect(read_points(source))
 
 
 def _describe(facts: CloudFacts) -> str:
@@ -94,4 +103,11 @@ def _needs(facts: CloudFacts) -> str:
     if facts.counts["points"] < MIN_POINTS:
         return f"at least {MIN_POINTS} points"
     cost = f"about {facts.estimated_seconds:.0f} s and {facts.estimated_peak_bytes / 1e9:.1f} GB"
-    return f"{cost} for {facts.default_vertices:,} vertices, on two cores"
+    tiled = "; in tiles, as that is more than half of the memory here" if _is_tiled(facts) else ""
+    return f"{cost} for {facts.default_vertices:,} vertices, on two cores{tiled}"
+
+
+def _is_tiled(facts: CloudFacts) -> bool:
+    from hdpea.cli.tiles import Resources
+
+    return facts.estimated_peak_bytes > Resources().bytes()

@@ -80,11 +80,12 @@ def parse_las(data: bytes) -> PointCloud:
 
 
 def parse_las_chunk(chunk: Any) -> PointCloud:
-    """Return the points of a chunk, as laspy reads it, with their normals, without those that are withheld."""
+    """Return the points of a chunk, as laspy reads it, with normals and classes, without those that are withheld."""
     names = [name for name in chunk.point_format.dimension_names if name not in _GRID]
     kept = ~np.asarray(chunk["withheld"]).astype(bool) if "withheld" in names else np.ones(len(chunk), bool)
     normals = [name for name in names if any(plain_name(name) in each for each in NORMAL_NAMES)]
-    return from_columns({name: np.asarray(chunk[name])[kept] for name in ("x", "y", "z", *normals)}, "LAS")
+    classes = [name for name in names if name == "classification"]
+    return from_columns({name: np.asarray(chunk[name])[kept] for name in ("x", "y", "z", *normals, *classes)}, "LAS")
 
 
 def _chunks(data: bytes, start: int) -> int:
