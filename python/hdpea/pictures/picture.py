@@ -19,6 +19,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hdpea.errors import UsageError
+from hdpea.geometry.smooth_fans import CREASE
 from hdpea.pictures.camera import choose_view, choose_view_of_points
 from hdpea.runtime.marks import mark_of
 from hdpea.runtime.outputs import check_output, replacing
@@ -186,7 +187,8 @@ def draw_mesh(
     camera
         Where to look from; by default as ``Camera.before`` chooses for the mesh alone.
     colors
-        (v, 3), red, green and blue of the vertices, in place of the colour of the side and of the edges.
+        (v, 3), red, green and blue of the vertices, in place of the colour of the side and of the edges; the surface
+        is shaded smoothly then, but for creases.
 
     Raises
     ------
@@ -203,7 +205,8 @@ def draw_mesh(
             "line_width": 0.6,
         }
     else:
-        looks = {"scalars": colors, "rgb": True}
+        shaded = {"smooth_shading": True, "split_sharp_edges": True, "feature_angle": CREASE}
+        looks = {"scalars": colors, "rgb": True, **shaded}
     with drawn_to(path, window_size=list(size), lighting="none") as (pyvista, plotter):
         surface = pyvista.PolyData.from_regular_faces(camera.to_view(vertices), faces.astype(int))
         plotter.add_mesh(surface, ambient=0.3, diffuse=0.75, **looks)
