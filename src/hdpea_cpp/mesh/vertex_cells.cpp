@@ -3,11 +3,12 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <limits>
 
 #include "hdpea_cpp/base/checks.hpp"
 #include "hdpea_cpp/base/errors.hpp"
 #include "hdpea_cpp/base/parallel.hpp"
-#include "hdpea_cpp/points/neighbors.hpp"
+#include "hdpea_cpp/mesh/surface_distance.hpp"
 
 namespace hdpea {
 
@@ -51,14 +52,21 @@ Eigen::RowVector3d PlaneQuadric::least(const Eigen::RowVector3d& goal, double pu
   return sum.ldlt().solve(right / count + pull * goal.transpose()).transpose();
 }
 
-VertexCells::VertexCells(const EmbeddedCloud& cloud, const Coordinates& sites)
-    : cloud_(cloud),
-      owner_(nearest_neighbors(sites, cloud.coordinates, 1).col(0)),
-      points_(static_cast<std::size_t>(sites.rows())) {
+VertexCells::VertexCells(const EmbeddedCloud& cloud, const Coordinates& sites, const PointsRef& vertices,
+                         const FacesRef& faces)
+    : cloud_(cloud), owner_(cloud.coordinates.rows()), points_(static_cast<std::size_t>(sites.rows())) {
+  const SurfacePoints feet = closest_surface_points(vertices, faces, cloud.coordinates.leftCols<3>());
+  parallel_for(owner_.size(), [&](Index point) {
+    double least = std::numeric_limits<double>::infinity();
+    for (const Index corner : faces.row(feet.face(point))) {
+      const double distance = (sites.row(corner) - cloud.coordinates.row(point)).squaredNorm();
+      if (distance < least) least = distance, owner_(point) = corner;
+    }
+  });
   gather();
 }
 
-void VertexCells::update(const Coordinates& sites, const Neighborhood& neighbors_of) {
+void VertexCells::update(const Coordinates& sites, const Neighborhood& neighbors_of, const Covering& may_cover) {
   parallel_for(owner_.size(), [&](Index point) {
     const auto x = cloud_.coordinates.row(point);
     Index best = owner_(point), from = -1;
@@ -67,7 +75,7 @@ void VertexCells::update(const Coordinates& sites, const Neighborhood& neighbors
       from = best;
       neighbors_of(from, [&](Index neighbor) {
         const double distance = (sites.row(neighbor) - x).squaredNorm();
-        if (distance < least) least = distance, best = neighbor;
+        if (distance < least && may_cover(point, neighbor)) least = distance, best = neighbor;
       });
     }
     owner_(point) = best;

@@ -49,13 +49,20 @@ class VertexCells {
  public:
   /// Calls a function with every neighbour of a vertex.
   using Neighborhood = std::function<void(Index, const std::function<void(Index)>&)>;
+  /// Whether a point (first) may belong to a vertex.
+  using Covering = std::function<bool(Index, Index)>;
 
-  /// @param sites  (v, d) of the vertices, v >= 1
-  VertexCells(const EmbeddedCloud& cloud, const Coordinates& sites);
+  /// At first each point belongs to the nearest corner of the face that is closest to it in R^3: the nearest vertex in
+  /// R^d may be on the other side of a wall thinner than the vertices are apart.
+  ///
+  /// @param sites     (v, d) of the vertices, v >= 1
+  /// @param vertices  (v, 3)
+  /// @param faces     (f, 3)
+  VertexCells(const EmbeddedCloud& cloud, const Coordinates& sites, const PointsRef& vertices, const FacesRef& faces);
 
-  /// Hands each point on from its vertex to nearer ones, by way of the edges: no point gets to the far side of a wall,
-  /// though the nearest vertex may be there.
-  void update(const Coordinates& sites, const Neighborhood& neighbors_of);
+  /// Hands each point on from its vertex to nearer ones that may cover it, by way of the edges: no point gets to the
+  /// far side of a wall, though the nearest vertex may be there.
+  void update(const Coordinates& sites, const Neighborhood& neighbors_of, const Covering& may_cover);
 
   const std::vector<Index>& points(Index vertex) const { return points_[vertex]; }
   const PlaneQuadric& planes(Index vertex) const { return planes_[vertex]; }

@@ -5,11 +5,12 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+import trimesh
 from helpers import clouds
 from helpers.reconstructions import assert_same_bytes, cloud_of, mesh_of, options
 from numpy.typing import NDArray
 
-from hdpea import Reconstruction, reconstruct
+from hdpea import Reconstruction, _core, reconstruct
 from hdpea.errors import Interrupted
 from hdpea.mesh import assembly
 
@@ -50,3 +51,24 @@ def test_points_whose_normals_are_estimated_get_no_more_particles_than_vertices(
 def test_it_can_be_interrupted() -> None:
     with pytest.raises(Interrupted):
         reconstruct(*cloud_of("sphere", 500), options(60), lambda phase, _: phase != "remeshing")
+
+
+def test_a_wall_thinner_than_the_vertices_are_apart_keeps_its_thickness() -> None:
+    size = (1, 0.6, 0.02)
+    fine = trimesh.Trimesh(*trimesh.remesh.subdivide_to_size(*_box(size), 0.04))
+    fine.merge_vertices()
+    vertices, faces = np.array(fine.vertices), np.array(fine.faces, dtype=np.int64)
+    points, normals = np.array(fine.triangles_center), np.array(fine.face_normals)
+    budget = _core.MeshBudget()
+    budget.vertices = 100
+    few = _core.simplify_mesh(vertices, vertices, faces, points, normals, budget, None)
+    first = np.cross(normals, [0.3, 0.5, 0.8])
+    first /= np.linalg.norm(first, axis=1)[:, None]
+    bases, kept = np.hstack([first, np.cross(normals, first)]), np.empty((0, 2), dtype=np.int64)
+    made = _core.remesh_anisotropically(few.vertices, few.coordinates, few.faces, kept, points, bases, normals, None)
+    assert trimesh.Trimesh(made.vertices, made.faces).volume > 0.95 * np.prod(size)
+
+
+def _box(size: tuple[float, float, float]) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
+    box = trimesh.creation.box(size)
+    return np.array(box.vertices), np.array(box.faces)
