@@ -9,6 +9,6 @@ void register_intersection_repair(nb::module_& module) {
       .def_ro("vertices", &RepairedMesh::vertices, "(v, 3) float64")
       .def_ro("faces", &RepairedMesh::faces, "(f, 3) int64")
       .def_ro("self_intersections", &RepairedMesh::self_intersections, "Pairs of faces that cut each other.");
-  module.def("repair_self_intersections", &hdpea::repair_self_intersections, "vertices"_a, "faces"_a, ReleaseGil(),
-             "Mend faces that cut others.");
+  module.def("repair_self_intersections", &hdpea::repair_self_intersections, "vertices"_a, "faces"_a, "points"_a,
+             "farthest"_a, ReleaseGil(), "Mend faces that cut others, where that loses no points.");
 }

@@ -7,7 +7,9 @@
 #include <CGAL/exceptions.h>
 
 #include "hdpea_cpp/base/checks.hpp"
+#include "hdpea_cpp/base/errors.hpp"
 #include "hdpea_cpp/mesh/cgal_mesh.hpp"
+#include "hdpea_cpp/mesh/changes_taken_back.hpp"
 #include "hdpea_cpp/mesh/mesh_check.hpp"
 #include "hdpea_cpp/mesh/self_intersections.hpp"
 
@@ -24,9 +26,12 @@ constexpr std::size_t kFewestFaces = 4;
 
 }  // namespace
 
-RepairedMesh repair_self_intersections(const PointsRef& vertices, const FacesRef& faces) {
+RepairedMesh repair_self_intersections(const PointsRef& vertices, const FacesRef& faces, const PointsRef& points,
+                                       double farthest) {
   const MeshCheck given = check_mesh(vertices, faces);
   require(given.manifold() && given.oriented(), "repair_self_intersections needs a manifold, oriented mesh");
+  require_finite(points, "points", kLargestToTheFourth);
+  require(farthest >= 0, "how far points may get must be 0 or more");
   const Index cuts = count_self_intersections(vertices, faces);
   // CGAL's smoothing needs faces with an area.
   const RepairedMesh unchanged{vertices, faces, cuts};
@@ -42,6 +47,7 @@ RepairedMesh repair_self_intersections(const PointsRef& vertices, const FacesRef
   pmp::remove_isolated_vertices(mesh);
   TriangleMesh repaired = from_cgal(mesh);
   if (repaired.faces.rows() == 0 || !repaired.vertices.allFinite()) return unchanged;
+  repaired = with_losses_taken_back(vertices, faces, repaired, points, farthest);
   const MeshCheck check = check_mesh(repaired.vertices, repaired.faces);
   if (!check.manifold() || !check.oriented()) return unchanged;
   const Index left = count_self_intersections(repaired.vertices, repaired.faces);

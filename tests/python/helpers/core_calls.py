@@ -104,7 +104,7 @@ CALLS: dict[str, tuple[Callable[..., Any], Arguments]] = {
         },
     ),
     "remesh_isotropically": (_remesh, _mesh()),
-    "repair_self_intersections": (_core.repair_self_intersections, _mesh()),
+    "repair_self_intersections": (_core.repair_self_intersections, _mesh() | {"points": POINTS, "farthest": 0.1}),
     "restricted_voronoi_candidates": (
         _core.restricted_voronoi_candidates,
         {"seeds": POINTS, "bases": BASES, "neighbors": NEIGHBORS, "radii": RADII},
