@@ -44,11 +44,12 @@ constexpr double kUpright = 0.5, kUnfolded = 0.3;
 /// By how much more than now a step may take points from the faces, in squared distances.
 constexpr double kWorse = 1.1;
 
-/// In mean squared distances: up to this all points of a vertex together, and up to that a single one, may be from the
-/// faces whatever they were before. Once no point is counted to the wrong side of a wall, the mean itself leaves a
-/// sphere less even, and goat_head at G 0.72 instead of 0.76. The rim of a thin wall is few points among many, and
-/// would retreat by their sum alone; with 100 in place of 30 lewis_queen's is as good.
-constexpr double kTogether = 4, kAlone = 30;
+/// What points may be from the faces whatever they were before, in squared distances. All of a vertex together: so many
+/// times the mean, as long as that is no more than so small a share of the spacing of the vertices, or else the mean.
+/// (Four times it takes a sixth more off the accuracy of lattice_lamp; the mean itself leaves goat_head at G 0.72
+/// instead of 0.76, and a sphere less even.) A single one: so many times the mean, as the rim of a thin wall is few
+/// points among many, and would retreat by their sum alone.
+constexpr double kTogether = 4, kNear = 0.03, kAlone = 30;
 
 /// Shares of a step that are tried, each half of the one before, until one does no harm.
 constexpr int kShares = 3;
@@ -70,6 +71,14 @@ double squared_distance(const Vector& p, const Vector& a, const Vector& b, const
   const double to_c = acp_at_b - abp_at_b, to_b = abp_at_c - acp_at_c;
   if (weight_a <= 0 && to_c >= 0 && to_b >= 0) return (bp - to_c / (to_c + to_b) * (c - b)).squaredNorm();
   return (ap - (weight_b * ab + weight_c * ac) / (weight_a + weight_b + weight_c)).squaredNorm();
+}
+
+double area(const PointsRef& vertices, const FacesRef& faces) {
+  double twice = 0;
+  for (Index f = 0; f < faces.rows(); ++f) {
+    twice += area_vector(vertices.row(faces(f, 0)), vertices.row(faces(f, 1)), vertices.row(faces(f, 2))).norm();
+  }
+  return twice / 2;
 }
 
 double angle_between(const Coordinate& u, const Coordinate& v) {
@@ -97,6 +106,8 @@ class Remesher {
     double sum = 0;
     for (const Vertex v : mesh_.vertices()) sum += mesh_.is_isolated(v) ? 0 : squared_distances(std::array{v}).sum;
     mean_squared_distance_ = sum / static_cast<double>(cloud.coordinates.rows());
+    const double near = kNear * kNear * area(vertices, faces) / static_cast<double>(vertices.rows());
+    together_ = std::max(mean_squared_distance_, std::min(kTogether * mean_squared_distance_, near));
     const Neighbors nearest = nearest_neighbors(cloud.coordinates, coordinates, 1);
     for (Index v = 0; v < vertices.rows(); ++v) {
       coordinates_.row(v) = cloud.projected(coordinates.row(v), nearest(v, 0));
@@ -313,8 +324,7 @@ class Remesher {
     double points = 0;
     for (const Vertex v : vertices) points += static_cast<double>(cells_.points(v.idx()).size());
     const SquaredDistances now = squared_distances(vertices);
-    return {std::max(kWorse * now.sum, kTogether * mean_squared_distance_ * points),
-            std::max(now.largest, kAlone * mean_squared_distance_)};
+    return {std::max(kWorse * now.sum, together_ * points), std::max(now.largest, kAlone * mean_squared_distance_)};
   }
 
   Vector unit_normal(Vertex a, Vertex b, Vertex c) const {
@@ -344,9 +354,9 @@ class Remesher {
   Points positions_;         // in R^3
   Coordinates coordinates_;  // in R^d
   VertexCells cells_;
-  std::vector<char> moves_;  // of each vertex
-  std::vector<char> kept_;   // of each edge
-  double mean_squared_distance_ = 0;
+  std::vector<char> moves_;                          // of each vertex
+  std::vector<char> kept_;                           // of each edge
+  double mean_squared_distance_ = 0, together_ = 0;  // of all points; what those of a vertex may have
 };
 
 }  // namespace

@@ -31,10 +31,10 @@ struct EmbeddedMesh {
 /// it stands for let it: at a crease these hold it, along the crease or on a flat part they do not.
 ///
 /// What would harm is not done. Neither a move nor a flip may take the points of the vertices concerned farther from
-/// the faces around these than they are, or than twice what points are on average before the first round, nor a single
-/// point farther than it is, or than 5.5 times that average; nor may it turn a face away from its points. Vertices on
-/// borders and on kept edges do not move, and kept edges are not flipped. So the topology, the numbers and the order of
-/// vertices and faces stay.
+/// the faces around these than they are, or than twice what points are on average before the first round (once, where
+/// that is much), nor a single point farther than it is, or than 5.5 times that average; nor may it turn a face away
+/// from its points. Vertices on borders and on kept edges do not move, and kept edges are not flipped. So the topology,
+/// the numbers and the order of vertices and faces stay.
 ///
 /// @param vertices     (v, 3)
 /// @param coordinates  (v, d) of the vertices in the embedding, near the surface
