@@ -117,7 +117,7 @@ def on_patches(
 
 def mended_within(mesh: Mesh, bound: ErrorBound) -> Mesh:
     """Return the mesh without its self-intersections, unless that would break an error that it keeps."""
-    mended = repair_mesh(mesh, bound.surface)
+    mended = repair_mesh(mesh, bound.surface.points_in_unit)
     return mended if bound.kept_by(mended) or not bound.kept_by(mesh) else mesh
 
 

@@ -34,5 +34,5 @@ def coarser_levels(mesh: Mesh, surface: Surface, options: Options) -> Iterator[M
         else:
             half = MeshingOptions(faces=max(len(mesh.faces) // FEWER, FEWEST_FACES))
             mesh = simplify_mesh(mesh, surface, half)
-            mesh = repair_mesh(refine_mesh(mesh, surface, options.refinement), surface)
+            mesh = repair_mesh(refine_mesh(mesh, surface, options.refinement), surface.points_in_unit)
         yield mesh

@@ -66,7 +66,8 @@ def repair(work: Work) -> None:
     if work.folder.facts("agreed")["computed_sides"]:
         faced = facing_out(mesh)
         mesh, notes = faced.mesh, faced.notes
-    mesh = repair_mesh(mesh)
+    # Its vertices are fitted to the points, and far fewer than these, which need not fit into the memory.
+    mesh = repair_mesh(mesh, mesh.vertices_in_unit)
     found = mesh_facts(mesh)
     arrays = {"vertices": mesh.vertices_in_unit, "faces": mesh.faces, "patches": mesh.patches}
     facts = {"self_intersections": found.self_intersections, "statistics": mesh.statistics, "notes": list(notes)}

@@ -1,15 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 from __future__ import annotations
 
-from types import SimpleNamespace
-from typing import cast
-
 import numpy as np
 
 from hdpea import _core
 from hdpea.mesh.extraction import Mesh
 from hdpea.mesh.repair import FARTHEST, repair_mesh
-from hdpea.surface.surface import Surface
 
 
 def _grid(count: int) -> Mesh:
@@ -21,22 +17,21 @@ def _grid(count: int) -> Mesh:
     return Mesh(vertices, np.concatenate([lower, upper]), np.hstack([vertices, np.zeros((len(vertices), 5))]))
 
 
-def _surface(points: list[list[float]]) -> Surface:
-    return cast("Surface", SimpleNamespace(points_in_unit=np.array(points)))
+MIDDLE = np.array([[0.5, 0.5, 0.0]])
 
 
 def test_a_vertex_that_was_moved_through_other_faces_comes_back():
     flat = _grid(11)
     flat.vertices_in_unit[60] += [0.25, 0.03, 0.0]
     assert _core.count_self_intersections(flat.vertices_in_unit, flat.faces) > 0
-    mended = repair_mesh(flat, _surface([[0.5, 0.5, 0.0]]))
+    mended = repair_mesh(flat, MIDDLE)
     assert _core.count_self_intersections(mended.vertices_in_unit, mended.faces) == 0
     assert len(mended.coordinates) == len(mended.vertices_in_unit)
 
 
 def test_a_mesh_without_self_intersections_stays_as_it_is():
     flat = _grid(6)
-    same = repair_mesh(flat, _surface([[0.5, 0.5, 0.0]]))
+    same = repair_mesh(flat, MIDDLE)
     np.testing.assert_array_equal(same.vertices_in_unit, flat.vertices_in_unit)
     np.testing.assert_array_equal(same.faces, flat.faces)
     np.testing.assert_array_equal(same.coordinates, flat.coordinates)
@@ -45,11 +40,11 @@ def test_a_mesh_without_self_intersections_stays_as_it_is():
 def test_what_would_lose_points_is_not_mended():
     spiked = _grid(11)
     # Two spikes that lean through each other: mended, both are gone.
-    tips = [[0.65, 0.45, 0.6], [0.25, 0.47, 0.6]]
+    tips = np.array([[0.65, 0.45, 0.6], [0.25, 0.47, 0.6]])
     spiked.vertices_in_unit[[48, 70]] = tips
     assert _core.count_self_intersections(spiked.vertices_in_unit, spiked.faces) > 0
     spacing = np.sqrt(1 / len(spiked.vertices_in_unit))
-    for points, tips_stay in ((tips, True), ([[0.0, 0.0, 0.0]], False)):
-        mended = repair_mesh(spiked, _surface(points))
-        away = _core.closest_surface_points(mended.vertices_in_unit, mended.faces, np.array(tips)).distance
+    for points, tips_stay in ((tips, True), (MIDDLE, False)):
+        mended = repair_mesh(spiked, points)
+        away = _core.closest_surface_points(mended.vertices_in_unit, mended.faces, tips).distance
         assert (away.max() <= FARTHEST * spacing) == tips_stay
