@@ -14,8 +14,10 @@ from hdpea.geometry.triangles import mesh_area
 from hdpea.mesh.extraction import Mesh
 
 FARTHEST = 0.4
-"""How far from the mesh a point may get by mending, in spacings of the vertices. With 0.5, flex_hose and goblet_top have
-20 and 13 pairs of faces fewer that cut each other, but their farthest points are 1.3 and 1.2 times as far."""
+"""How far from the mesh a point may get by mending, in spacings of the vertices.
+
+With 0.5, flex_hose and goblet_top have 20 and 13 pairs of faces fewer that cut each other, but their farthest points are
+1.3 and 1.2 times as far."""
 
 
 def repair_mesh(mesh: Mesh, points: NDArray[np.float64]) -> Mesh:
