@@ -51,6 +51,10 @@ constexpr double kWorse = 1.1;
 /// points among many, and would retreat by their sum alone.
 constexpr double kTogether = 4, kNear = 0.03, kAlone = 30;
 
+/// Mean squared distance, for the squared spacing of the vertices, that exact points count as having: what is flat stays
+/// flat but for rounding, which must not hold its vertices.
+constexpr double kExact = 1e-6;
+
 /// Shares of a step that are tried, each half of the one before, until one does no harm.
 constexpr int kShares = 3;
 
@@ -105,9 +109,10 @@ class Remesher {
     keep(kept_edges);
     double sum = 0;
     for (const Vertex v : mesh_.vertices()) sum += mesh_.is_isolated(v) ? 0 : squared_distances(std::array{v}).sum;
-    mean_squared_distance_ = sum / static_cast<double>(cloud.coordinates.rows());
-    const double near = kNear * kNear * area(vertices, faces) / static_cast<double>(vertices.rows());
-    together_ = std::max(mean_squared_distance_, std::min(kTogether * mean_squared_distance_, near));
+    const double squared_spacing = area(vertices, faces) / static_cast<double>(vertices.rows());
+    const double mean = std::max(sum / static_cast<double>(cloud.coordinates.rows()), kExact * squared_spacing);
+    together_ = std::max(mean, std::min(kTogether * mean, kNear * kNear * squared_spacing));
+    alone_ = std::max(kAlone * mean, kNear * kNear * squared_spacing);
     const Neighbors nearest = nearest_neighbors(cloud.coordinates, coordinates, 1);
     for (Index v = 0; v < vertices.rows(); ++v) {
       coordinates_.row(v) = cloud.projected(coordinates.row(v), nearest(v, 0));
@@ -170,7 +175,7 @@ class Remesher {
         },
         [&](Index point, Index v) {
           return squared_distance_from_ring(point, Vertex(static_cast<SurfaceMesh::size_type>(v))) <=
-                 kAlone * mean_squared_distance_;
+                 alone_;
         });
   }
 
@@ -324,7 +329,7 @@ class Remesher {
     double points = 0;
     for (const Vertex v : vertices) points += static_cast<double>(cells_.points(v.idx()).size());
     const SquaredDistances now = squared_distances(vertices);
-    return {std::max(kWorse * now.sum, together_ * points), std::max(now.largest, kAlone * mean_squared_distance_)};
+    return {std::max(kWorse * now.sum, together_ * points), std::max(now.largest, alone_)};
   }
 
   Vector unit_normal(Vertex a, Vertex b, Vertex c) const {
@@ -354,9 +359,9 @@ class Remesher {
   Points positions_;         // in R^3
   Coordinates coordinates_;  // in R^d
   VertexCells cells_;
-  std::vector<char> moves_;                          // of each vertex
-  std::vector<char> kept_;                           // of each edge
-  double mean_squared_distance_ = 0, together_ = 0;  // of all points; what those of a vertex may have
+  std::vector<char> moves_;           // of each vertex
+  std::vector<char> kept_;            // of each edge
+  double together_ = 0, alone_ = 0;  // the squared distance that points of a vertex may have on average, and one
 };
 
 }  // namespace

@@ -51,7 +51,7 @@ class CreasesNearby {
 
  private:
   static constexpr Index kNearest = 16;
-  static constexpr double kStretch = 0.6;
+  static constexpr double kStretch = 1.0;
 
   Eigen::Vector3d offset(Index s, const Vector& x) const { return x.transpose() - creases_.samples[s].position; }
 
