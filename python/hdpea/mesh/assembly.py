@@ -108,7 +108,7 @@ def assemble_mesh(
             mesh = refine_mesh(mesh, surface, options.refinement, of_phase(progress, "refinement"))
     with clock.stage("repair"):
         tell(progress, "repair", 0)
-        mesh = repair_mesh(mesh, surface.points_in_unit) if bound is None else mended_within(mesh, bound)
+        mesh = repair_mesh(mesh, surface.points_in_unit, exact=exact) if bound is None else mended_within(mesh, bound)
         tell(progress, "repair", 1)
     return with_crease_edges_counted(mesh, creases)
 

@@ -51,8 +51,8 @@ constexpr double kWorse = 1.1;
 /// points among many, and would retreat by their sum alone.
 constexpr double kTogether = 4, kNear = 0.03, kAlone = 30;
 
-/// Mean squared distance, for the squared spacing of the vertices, that exact points count as having: what is flat stays
-/// flat but for rounding, which must not hold its vertices.
+/// Mean squared distance, for the squared spacing of the vertices, that exact points count as having: what is flat
+/// stays flat but for rounding, which must not hold its vertices.
 constexpr double kExact = 1e-6;
 
 /// Shares of a step that are tried, each half of the one before, until one does no harm.
@@ -174,8 +174,7 @@ class Remesher {
           for (const Vertex u : mesh_.vertices_around_target(mesh_.halfedge(vertex))) visit(u.idx());
         },
         [&](Index point, Index v) {
-          return squared_distance_from_ring(point, Vertex(static_cast<SurfaceMesh::size_type>(v))) <=
-                 alone_;
+          return squared_distance_from_ring(point, Vertex(static_cast<SurfaceMesh::size_type>(v))) <= alone_;
         });
   }
 
@@ -359,8 +358,8 @@ class Remesher {
   Points positions_;         // in R^3
   Coordinates coordinates_;  // in R^d
   VertexCells cells_;
-  std::vector<char> moves_;           // of each vertex
-  std::vector<char> kept_;            // of each edge
+  std::vector<char> moves_;          // of each vertex
+  std::vector<char> kept_;           // of each edge
   double together_ = 0, alone_ = 0;  // the squared distance that points of a vertex may have on average, and one
 };
 

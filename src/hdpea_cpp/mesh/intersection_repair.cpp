@@ -6,6 +6,8 @@
 #include <CGAL/Polygon_mesh_processing/repair_self_intersections.h>
 #include <CGAL/exceptions.h>
 
+#include <cmath>
+
 #include "hdpea_cpp/base/checks.hpp"
 #include "hdpea_cpp/base/errors.hpp"
 #include "hdpea_cpp/mesh/cgal_mesh.hpp"
@@ -47,7 +49,7 @@ RepairedMesh repair_self_intersections(const PointsRef& vertices, const FacesRef
   pmp::remove_isolated_vertices(mesh);
   TriangleMesh repaired = from_cgal(mesh);
   if (repaired.faces.rows() == 0 || !repaired.vertices.allFinite()) return unchanged;
-  repaired = with_losses_taken_back(vertices, faces, repaired, points, farthest);
+  if (std::isfinite(farthest)) repaired = with_losses_taken_back(vertices, faces, repaired, points, farthest);
   const MeshCheck check = check_mesh(repaired.vertices, repaired.faces);
   if (!check.manifold() || !check.oriented()) return unchanged;
   const Index left = count_self_intersections(repaired.vertices, repaired.faces);

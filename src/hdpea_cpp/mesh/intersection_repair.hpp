@@ -22,7 +22,8 @@ struct RepairedMesh {
 /// @param vertices  (v, 3), finite
 /// @param faces     (f, 3) edge- and vertex-manifold, oriented; what is returned is so, too
 /// @param points    (n, 3) of the surface, n >= 0
-/// @param farthest  that a point may get from the mesh in a mended place, if none there was as far
+/// @param farthest  that a point may get from the mesh in a mended place, if none there was as far; infinity: however
+/// far
 /// @throws InvalidArgument on a broken contract
 RepairedMesh repair_self_intersections(const PointsRef& vertices, const FacesRef& faces, const PointsRef& points,
                                        double farthest);
