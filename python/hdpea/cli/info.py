@@ -98,13 +98,18 @@ def _normals(facts: CloudFacts) -> str:
 
 
 def _needs(facts: CloudFacts) -> str:
+    from hdpea.report.cost import TILED_SECONDS
     from hdpea.surface.surface import MIN_POINTS
 
     if facts.counts["points"] < MIN_POINTS:
         return f"at least {MIN_POINTS} points"
     cost = f"about {facts.estimated_seconds:.0f} s and {facts.estimated_peak_bytes / 1e9:.1f} GB"
-    tiled = "; in tiles, as that is more than half of the memory here" if _is_tiled(facts) else ""
-    return f"{cost} for {facts.default_vertices:,} vertices, on two cores{tiled}"
+    if _is_tiled(facts):
+        seconds = TILED_SECONDS * facts.counts["points"]
+        return (
+            f"about {seconds:.0f} s in tiles on two cores, for {facts.default_vertices:,} vertices; in one piece {cost}"
+        )
+    return f"{cost} for {facts.default_vertices:,} vertices, on two cores"
 
 
 def _is_tiled(facts: CloudFacts) -> bool:

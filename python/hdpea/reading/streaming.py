@@ -73,7 +73,7 @@ def stream_of_cloud(cloud: PointCloud, name: str) -> PointStream:
     def chunks() -> Iterator[PointCloud]:
         for start in range(0, len(cloud.points), CHUNK):
             rows = slice(start, start + CHUNK)
-            yield PointCloud(cloud.points[rows], None if cloud.normals is None else cloud.normals[rows], {})
+            yield cloud.at(np.arange(*rows.indices(len(cloud.points))))
 
     return PointStream(name, cloud.format, len(cloud.points), chunks, cloud.crs, _digest(cloud), streamed=False)
 

@@ -39,6 +39,10 @@ PEAK_BYTES = Cost(fixed=245e6, per_thousand_points=0.8e6, per_thousand_vertices=
 """Peak resident memory of the process."""
 
 
+TILED_SECONDS = 0.1e-3
+"""Seconds for each point of a cloud in tiles, on two cores: 0.19 ms of a processor (``docs/scaling.md``)."""
+
+
 def seconds_of_run(points: int, vertices: int, oriented: bool) -> float:
     """Return the seconds of a run on a cloud whose normals are `oriented`, such that their signs will be kept."""
     return SECONDS.of(points, vertices) + (0 if oriented else ORIENTING_SECONDS.of(points, vertices))

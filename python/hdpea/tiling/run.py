@@ -8,10 +8,11 @@ import os
 import shutil
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from hdpea.errors import UsageError
+from hdpea.frontend.classes import stream_of_classes
 from hdpea.mesh.extraction import Mesh
 from hdpea.options import Options
 from hdpea.options.choice import Choice
@@ -111,6 +112,11 @@ def reconstruct_in_tiles(
     most = tiling.most_points(options, stream.count)
     with _work_folder(tiling.folder, f"{version()} {stream.identity} {options} {most}") as folder:
         tell(progress, "tiling", 0)
+        classes = options.cleaning.classes
+        if classes is not None:
+            # Tiles know nothing of classes, but have the points of those alone.
+            stream = stream_of_classes(stream, classes)
+            options = replace(options, cleaning=replace(options.cleaning, classes=None))
         with journal.clock.stage("tiling"):
             plan = take_in(stream, folder, options, most)
         work = Work(folder, plan, options)
@@ -128,7 +134,6 @@ def _check(options: Options) -> None:
         "error": options.meshing.error,
         "lod": options.meshing.lod > 1,
         "texture": options.texture,
-        "classes": options.cleaning.classes,
         "watertight": options.meshing.watertight,
     }
     refused = [f"`{name}`" for name, value in asked.items() if value]

@@ -12,7 +12,8 @@ from hdpea import _core
 from hdpea.errors import UsageError
 from hdpea.geometry.triangles import area_vectors_of
 from hdpea.geometry.unit_frame import UnitFrame
-from hdpea.options import MeshingOptions, NormalOptions, Options
+from hdpea.options import CleaningOptions, MeshingOptions, NormalOptions, Options
+from hdpea.options.classes import Classes
 from hdpea.reading.cloud import PointCloud
 from hdpea.reading.streaming import PointStream, stream_of_cloud
 from hdpea.result import Reconstruction
@@ -35,6 +36,24 @@ def _narrow_halos() -> Iterator[None]:
 def torus_stream(normals: bool = True) -> PointStream:
     points, directions = clouds.torus(POINTS)
     return stream_of_cloud(PointCloud(points, directions if normals else None, {}), "torus")
+
+
+def test_classes_are_taken_before_tiles_are_cut(tmp_path: Path) -> None:
+    points = clouds.torus(POINTS)[0]
+    classes = np.repeat([2, 5], [POINTS, 500])
+    trees = 3 * np.random.default_rng(0).random((500, 3))
+    cloud = PointCloud(np.vstack([points, trees]), None, {"classification": classes})
+    options = Options(cleaning=CleaningOptions(classes=Classes.of([2])))
+    alone = reconstruct_in_tiles(
+        stream_of_cloud(PointCloud(points, None, {}), "torus"), Tiling(tmp_path / "a", 1e9, tile_points=TILE_POINTS)
+    )
+    taken = reconstruct_in_tiles(
+        stream_of_cloud(cloud, "scene"), Tiling(tmp_path / "b", 1e9, tile_points=TILE_POINTS), options
+    )
+    np.testing.assert_array_equal(taken.vertices, alone.vertices)
+    none = Options(cleaning=CleaningOptions(classes=Classes.of([6])))
+    with pytest.raises(UsageError, match="No point is of the"):
+        reconstruct_in_tiles(stream_of_cloud(cloud, "scene"), Tiling(tmp_path / "c", 1e9), none)
 
 
 def made(folder: Path, jobs: int = 1, normals: bool = True) -> Reconstruction:
