@@ -4,8 +4,11 @@ from __future__ import annotations
 from pathlib import Path
 
 import click
+import numpy as np
 import pytest
+from helpers import clouds
 
+from hdpea.cli import run
 from hdpea.cli.tiles import MemoryType, Resources, stream_beyond
 from hdpea.errors import UsageError
 from hdpea.options import Options
@@ -37,3 +40,14 @@ def test_tiles_lie_beside_the_mesh_unless_a_folder_is_named(tmp_path: Path) -> N
     assert Resources(folder=tmp_path).work_folder(None) == tmp_path
     with pytest.raises(UsageError, match="folder"):
         Resources().work_folder(None)
+
+
+def test_info_tells_what_will_be_made_in_tiles(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    np.save(tmp_path / "scan.npy", clouds.sphere(800)[0])
+    assert run(["info", str(tmp_path / "scan.npy")]) == 0
+    assert "in tiles" not in capsys.readouterr().out
+    monkeypatch.setattr(Resources, "bytes", lambda _: 1.0)
+    assert run(["info", str(tmp_path / "scan.npy")]) == 0
+    assert "in tiles on two cores, for 100 vertices; in one piece about" in capsys.readouterr().out
