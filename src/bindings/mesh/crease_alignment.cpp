@@ -11,7 +11,8 @@ void register_crease_alignment(nb::module_& module) {
       .def_ro("moved", &AlignedMesh::moved, "vertices that went onto a crease")
       .def_ro("flipped", &AlignedMesh::flipped, "edges");
   module.def("align_to_creases", &hdpea::align_to_creases, "vertices"_a, "faces"_a, "creases"_a,
-             "fixed"_a = hdpea::Mask(), ReleaseGil(), "Move vertices onto creases and flip edges, so that none runs across.");
+             "fixed"_a = hdpea::Mask(), ReleaseGil(),
+             "Move vertices onto creases and flip edges, so that none runs across.");
   module.def("crease_edges", &hdpea::crease_edges, "vertices"_a, "faces"_a, "creases"_a, ReleaseGil(),
              "The (k, 2) edges of a mesh that run along creases.");
 }

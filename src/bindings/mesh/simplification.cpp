@@ -23,8 +23,7 @@ void register_simplification(nb::module_& module) {
         return hdpea::simplify_mesh(vertices, coordinates, faces, points, normals, budget, {}, progress, fixed);
       },
       "vertices"_a, "coordinates"_a, "faces"_a, "points"_a, "normals"_a, "budget"_a, "progress"_a = nb::none(),
-      "fixed"_a = hdpea::Mask(),
-      ReleaseGil(), "Collapse edges, the cheapest first, until a mesh is small enough.");
+      "fixed"_a = hdpea::Mask(), ReleaseGil(), "Collapse edges, the cheapest first, until a mesh is small enough.");
   module.def(
       "simplify_within",
       [](const hdpea::PointsRef& vertices, const hdpea::CoordinatesRef& coordinates, const hdpea::FacesRef& faces,
