@@ -44,7 +44,7 @@ def check_pytorch() -> None:
 def load_in_background() -> None:
     """Begin to load PyTorch, if it is there, beside the stages that do without it; an import waits for the rest."""
     if "torch" not in sys.modules and has_pytorch():
-        # Its threads wait for each other by spinning otherwise: on busy cores particles took ten times as long.
+        # Its threads wait for each other by spinning otherwise, which on busy cores takes many times as long.
         os.environ.setdefault("OMP_WAIT_POLICY", "PASSIVE")
         Thread(target=_load).start()
 
