@@ -328,7 +328,7 @@ class Remesher {
     double points = 0;
     for (const Vertex v : vertices) points += static_cast<double>(cells_.points(v.idx()).size());
     const SquaredDistances now = squared_distances(vertices);
-    return {std::max(kWorse * now.sum, together_ * points), std::max(now.largest, alone_)};
+    return {std::max(kWorse * now.sum, together_ * points), std::max(kWorse * now.largest, alone_)};
   }
 
   Vector unit_normal(Vertex a, Vertex b, Vertex c) const {

@@ -56,13 +56,12 @@ VertexCells::VertexCells(const EmbeddedCloud& cloud, const Coordinates& sites, c
                          const FacesRef& faces)
     : cloud_(cloud), owner_(cloud.coordinates.rows()), points_(static_cast<std::size_t>(sites.rows())) {
   const SurfacePoints feet = closest_surface_points(vertices, faces, cloud.coordinates.leftCols<3>());
-  parallel_for(owner_.size(), [&](Index point) {
-    double least = std::numeric_limits<double>::infinity();
-    for (const Index corner : faces.row(feet.face(point))) {
-      const double distance = (sites.row(corner) - cloud.coordinates.row(point)).squaredNorm();
-      if (distance < least) least = distance, owner_(point) = corner;
-    }
-  });
+  // By the weights: where the closest place lies on an edge, rounding chooses the face, but no weight.
+  for (Index point = 0; point < owner_.size(); ++point) {
+    Index heaviest;
+    feet.barycentric.row(point).maxCoeff(&heaviest);
+    owner_(point) = faces(feet.face(point), heaviest);
+  }
   gather();
 }
 

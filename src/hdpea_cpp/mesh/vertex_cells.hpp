@@ -52,8 +52,8 @@ class VertexCells {
   /// Whether a point (first) may belong to a vertex.
   using Covering = std::function<bool(Index, Index)>;
 
-  /// At first each point belongs to the nearest corner of the face that is closest to it in R^3: the nearest vertex in
-  /// R^d may be on the other side of a wall thinner than the vertices are apart.
+  /// At first each point belongs to that corner of the face closest to it in R^3 which has the largest weight there:
+  /// the nearest vertex in R^d may be on the other side of a wall thinner than the vertices are apart.
   ///
   /// @param sites     (v, d) of the vertices, v >= 1
   /// @param vertices  (v, 3)
