@@ -21,6 +21,7 @@ from tempfile import TemporaryDirectory
 from typing import Any
 
 import click
+import laspy
 import numpy as np
 import trimesh
 from command_pages import context_of
@@ -86,6 +87,8 @@ def prepare(folder: Path, count: int) -> None:
     points = normals * [2, 1, 1]
     for name in ("scan.ply", "a.ply", "front.ply", "back.ply", "tile.ply", "statue.ply"):
         _write_cloud(folder / name, points)
+    for name in ("flight.laz", "survey.laz"):
+        _write_laz(folder / name, points)
     for name in ("scan.xyz", "b.xyz"):
         np.savetxt(folder / name, points)
     (folder / "c.obj").write_text("".join(f"v {x} {y} {z}\n" for x, y, z in points))
@@ -112,6 +115,15 @@ def _write_cloud(path: Path, points: np.ndarray[Any, np.dtype[np.float64]]) -> N
     for name, values in columns.items():
         table[name] = values
     PlyData([PlyElement.describe(table, "vertex")]).write(path)
+
+
+def _write_laz(path: Path, points: np.ndarray[Any, np.dtype[np.float64]]) -> None:
+    """Write a LAZ of points of class 2, to the millimetre."""
+    las = laspy.LasData(laspy.LasHeader(point_format=6, version="1.4"))
+    las.header.scales = [0.001] * 3
+    las.x, las.y, las.z = points.T
+    las.classification = np.full(len(points), 2, np.uint8)
+    las.write(path)
 
 
 def run(command: str, folder: Path) -> subprocess.CompletedProcess[str]:
