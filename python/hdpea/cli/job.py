@@ -17,6 +17,9 @@ from hdpea.options import Options
 from hdpea.runtime.progress import ProgressCallback, tell
 
 if TYPE_CHECKING:
+    import numpy as np
+    from numpy.typing import NDArray
+
     from hdpea.reading.streaming import PointStream
     from hdpea.report.report import Report
     from hdpea.result import Reconstruction
@@ -130,26 +133,15 @@ def make_mesh(job: Job, progress: ProgressCallback | None) -> Report:
         from hdpea.reconstruction import reconstruct
 
     result = reconstruct(cloud, options=job.options, progress=progress)
-    result.report.begin_with(", ".join(sources), clock)
-    tell(progress, "writing", 0.0)
-    with result.report.clock.stage("writing"):
-        _write_mesh(job, result)
-    if job.report:
-        result.report.write(job.report)
+    _write(job, result, clock, progress)
     if job.dropped:
         from hdpea.writing.points import write_dropped
 
         write_dropped(job.dropped, result.dropped.points, result.dropped.reasons)
     if job.picture:
         from hdpea.pictures.camera import mean_sight
-        from hdpea.pictures.picture import Camera, draw_mesh
-        from hdpea.writing.attributes import colors_of
 
-        tell(progress, "picture", 0.0)
-        sight = mean_sight(cloud.points, cloud.sensors())
-        camera = Camera.before(result.vertices, result.faces, sight, job.up)
-        colors = colors_of(result.attributes)
-        draw_mesh(job.picture, result.vertices, result.faces, camera=camera, colors=colors)
+        _draw(job.picture, job, result, mean_sight(cloud.points, cloud.sensors()), progress)
     if job.page:
         from hdpea.report.page import write_result_page
 
@@ -168,18 +160,31 @@ def _make_in_tiles(job: Job, stream: PointStream, clock: StageClock, progress: P
     given = job.resources
     tiling = Tiling(given.work_folder(job.destination.output), given.bytes(), given.jobs, given.scheduler)
     result = reconstruct_in_tiles(stream, tiling, job.options, progress)
+    _write(job, result, clock, progress)
+    if job.picture:
+        _draw(job.picture, job, result, None, progress)
+    return result.report
+
+
+def _write(job: Job, result: Reconstruction, clock: StageClock, progress: ProgressCallback | None) -> None:
+    """Write the mesh and its report, which begins with what `clock` has measured so far."""
     result.report.begin_with(", ".join(job.destination.sources), clock)
     tell(progress, "writing", 0.0)
     with result.report.clock.stage("writing"):
         _write_mesh(job, result)
     if job.report:
         result.report.write(job.report)
-    if job.picture:
-        from hdpea.pictures.picture import Camera, draw_mesh
 
-        camera = Camera.before(result.vertices, result.faces, None, job.up)
-        draw_mesh(job.picture, result.vertices, result.faces, camera=camera)
-    return result.report
+
+def _draw(
+    path: Path, job: Job, result: Reconstruction, sight: NDArray[np.float64] | None, progress: ProgressCallback | None
+) -> None:
+    from hdpea.pictures.picture import Camera, draw_mesh
+    from hdpea.writing.attributes import colors_of
+
+    tell(progress, "picture", 0.0)
+    camera = Camera.before(result.vertices, result.faces, sight, job.up)
+    draw_mesh(path, result.vertices, result.faces, camera=camera, colors=colors_of(result.attributes))
 
 
 def _write_mesh(job: Job, result: Reconstruction) -> None:
