@@ -16,6 +16,13 @@ Vector = NDArray[np.float64]
 AXES: dict[str, Vector] = dict(zip(UP_AXES, np.array([[0.0, 0, 1], [0, 1, 0], [0, -1, 0]]), strict=True))
 """The axes by name."""
 
+GLTF_FROM_WORLD: dict[str, NDArray[np.float64]] = {
+    "z": np.array([[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, -1.0, 0.0]]),
+    "y": np.eye(3),
+    "-y": np.diag([1.0, -1.0, -1.0]),
+}
+"""Rotations (3, 3) into glTF, which has y up and x to the right, by what is up in the world."""
+
 OPEN = 0.15
 """Length of the mean unit normal from which a surface counts as open: a closed one has 0, a plane 1. Scans of whole
 objects without their undersides have up to 0.12, single views from 0.3 on."""

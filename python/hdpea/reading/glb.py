@@ -14,9 +14,7 @@ from numpy.typing import NDArray
 from hdpea import _core
 from hdpea.geometry.color import srgb_of_linear
 from hdpea.geometry.triangles import TriangleMesh
-
-AHEAD = {"z": ([0, 2, 1], [1, -1, 1]), "y": ([0, 1, 2], [1, 1, 1]), "-y": ([0, 1, 2], [1, -1, -1])}
-"""Which coordinate of the file is x, y and z in the world, and its sign, by what is up there."""
+from hdpea.geometry.upright import GLTF_FROM_WORLD
 
 
 def placed_in_world(
@@ -28,17 +26,19 @@ def placed_in_world(
 
     Only a file that says its shift is one of ours; others are as they are.
     """
-    (length,) = struct.unpack_from("<I", data, 12)
-    nodes = json.loads(data[20 : 20 + length]).get("nodes", [])
+    tree, _ = _described(data)
+    nodes = tree.get("nodes", [])
     extras = nodes[0].get("extras") if len(nodes) == 1 else None
     if not isinstance(extras, dict) or extras.get("up") != "y" or "shift" not in extras:
         return vertices, faces
-    order, signs = AHEAD[extras.get("world_up") or "z"]
     if merged:
         distinct, first, number = np.unique(vertices, axis=0, return_index=True, return_inverse=True)
         order_of_first = first.argsort()
         vertices, faces = distinct[order_of_first], order_of_first.argsort()[number.ravel()][faces]
-    return vertices[:, order] * signs + np.asarray(extras["shift"], np.float64), faces
+    turned = (
+        vertices @ GLTF_FROM_WORLD[extras.get("world_up") or "z"]
+    )  # back: the inverse of a rotation is its transpose
+    return turned + np.asarray(extras["shift"], np.float64), faces
 
 
 def colors_at(path: Path, vertices: NDArray[np.float64]) -> dict[str, NDArray[np.uint8]]:
@@ -65,8 +65,7 @@ COMPONENTS: dict[int, tuple[str, int]] = {5121: ("<u1", 255), 5123: ("<u2", 6553
 
 def _attribute(data: bytes, name: str) -> NDArray[np.float64] | None:
     """Return the numbers (v, c) of that name of the only primitive of a GLB file; None if it has more, or none such."""
-    (length,) = struct.unpack_from("<I", data, 12)
-    tree = json.loads(data[20 : 20 + length])
+    tree, numbers = _described(data)
     primitives = [each for mesh in tree.get("meshes", []) for each in mesh["primitives"]]
     if len(primitives) != 1 or name not in primitives[0]["attributes"]:
         return None
@@ -76,7 +75,13 @@ def _attribute(data: bytes, name: str) -> NDArray[np.float64] | None:
     kind, largest = COMPONENTS[accessor["componentType"]]
     view, width = tree["bufferViews"][accessor["bufferView"]], int(accessor["type"].removeprefix("VEC"))
     item = np.dtype(kind).itemsize
-    start = 28 + length + view.get("byteOffset", 0) + accessor.get("byteOffset", 0)
+    start = numbers + view.get("byteOffset", 0) + accessor.get("byteOffset", 0)
     strides = (view.get("byteStride", width * item), item)
     rows: NDArray[Any] = np.ndarray((accessor["count"], width), kind, data, start, strides)
     return rows / largest
+
+
+def _described(data: bytes) -> tuple[dict[str, Any], int]:
+    """Return what a GLB file says of itself, and where its numbers begin."""
+    (length,) = struct.unpack_from("<I", data, 12)
+    return json.loads(data[20 : 20 + length]), 28 + length

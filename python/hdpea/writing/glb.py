@@ -20,13 +20,6 @@ from hdpea.geometry.unit_frame import diagonal_of
 FLOAT32_LEAST, FLOAT32_MOST = 1e-30, 1e30
 """Sizes of meshes between which single precision has all its digits for their details, too."""
 
-GLTF_FROM_WORLD = {
-    "z": np.array([[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, -1.0, 0.0]]),
-    "y": np.eye(3),
-    "-y": np.diag([1.0, -1.0, -1.0]),
-}
-"""glTF has y up and x to the right; by what is up in the world. Blender and others turn it back to z."""
-
 MATERIAL: dict[str, Any] = {
     "name": "surface",
     "pbrMetallicRoughness": {"metallicFactor": 0.0, "roughnessFactor": 0.9},

@@ -14,11 +14,12 @@ from plyfile import PlyData, PlyElement
 
 from hdpea.errors import UsageError
 from hdpea.geometry.texture import Texture
+from hdpea.geometry.upright import GLTF_FROM_WORLD
 from hdpea.runtime.marks import check_replaceable
 from hdpea.runtime.outputs import check_output, replacing
 from hdpea.writing.attributes import colors_of, columns_of
 from hdpea.writing.content import MeshContent
-from hdpea.writing.glb import GLTF_FROM_WORLD, glb
+from hdpea.writing.glb import glb
 from hdpea.writing.marking import marked, save_arrays
 from hdpea.writing.obj import lines, obj, png, write_texture_files
 from hdpea.writing.placement import Placement, loses_digits, write_placement
