@@ -35,9 +35,8 @@ def placed_in_world(
         distinct, first, number = np.unique(vertices, axis=0, return_index=True, return_inverse=True)
         order_of_first = first.argsort()
         vertices, faces = distinct[order_of_first], order_of_first.argsort()[number.ravel()][faces]
-    turned = (
-        vertices @ GLTF_FROM_WORLD[extras.get("world_up") or "z"]
-    )  # back: the inverse of a rotation is its transpose
+    # Rows times the rotation itself turn back, where the writer takes its transpose.
+    turned = vertices @ GLTF_FROM_WORLD[extras.get("world_up") or "z"]
     return turned + np.asarray(extras["shift"], np.float64), faces
 
 
