@@ -21,7 +21,6 @@ def remesh_anisotropically(
     coordinates: NDArray[np.float64],
     bases: NDArray[np.float64],
     progress: PhaseCallback | None = None,
-    kept_edges: NDArray[np.int64] | None = None,
 ) -> Mesh:
     """Return the mesh with its edges flipped, and its vertices moved along the embedded surface.
 
@@ -34,16 +33,12 @@ def remesh_anisotropically(
         (n, d) float64: the embedding of the points of `surface`.
     bases
         (n, 2, d) float64: its tangent planes, as ``hdpea.embedding.tangents`` makes them.
-    kept_edges
-        (k, 2) int64: vertices at the ends of edges that stay as they are, such as creases; default: none.
     """
-    kept = np.empty((0, 2), dtype=np.int64) if kept_edges is None else kept_edges
     with core_errors_translated():
         made = _core.remesh_anisotropically(
             mesh.vertices_in_unit,
             mesh.coordinates,
             mesh.faces,
-            kept,
             coordinates,
             bases.reshape(len(bases), -1),
             surface.normals,

@@ -13,12 +13,12 @@ void register_anisotropic_remeshing(nb::module_& module) {
   module.def(
       "remesh_anisotropically",
       [](const hdpea::PointsRef& vertices, const hdpea::CoordinatesRef& coordinates, const hdpea::FacesRef& faces,
-         const hdpea::EdgesRef& kept_edges, const hdpea::CoordinatesRef& cloud, const hdpea::CoordinatesRef& bases,
-         const hdpea::PointsRef& normals, const hdpea::Progress& progress) {
+         const hdpea::CoordinatesRef& cloud, const hdpea::CoordinatesRef& bases, const hdpea::PointsRef& normals,
+         const hdpea::Progress& progress) {
         const EmbeddedCloud surface{cloud, bases, normals};
-        return hdpea::remesh_anisotropically(vertices, coordinates, faces, kept_edges, surface, {}, progress);
+        return hdpea::remesh_anisotropically(vertices, coordinates, faces, surface, {}, progress);
       },
-      "vertices"_a, "coordinates"_a, "faces"_a, "kept_edges"_a, "cloud"_a, "bases"_a, "normals"_a,
-      "progress"_a = nb::none(), ReleaseGil(),
+      "vertices"_a, "coordinates"_a, "faces"_a, "cloud"_a, "bases"_a, "normals"_a, "progress"_a = nb::none(),
+      ReleaseGil(),
       "Make the triangles of a mesh as equilateral in its embedding as can be, without leaving the points.");
 }

@@ -6,8 +6,6 @@
 
 namespace hdpea {
 
-using EdgesRef = Eigen::Ref<const Edges>;
-
 /// How a mesh is made even in its embedding.
 struct AnisotropicRemeshingOptions {
   Index rounds = 12;         ///< of flips and relaxation
@@ -33,16 +31,15 @@ struct EmbeddedMesh {
 /// What would harm is not done. Neither a move nor a flip may take the points of the vertices concerned farther from
 /// the faces around these than they are, or than twice what points are on average before the first round (once, where
 /// that is much), nor a single point farther than it is, or than 5.5 times that average; nor may it turn a face away
-/// from its points. Vertices on borders and on kept edges do not move, and kept edges are not flipped. So the topology,
-/// the numbers and the order of vertices and faces stay.
+/// from its points. Vertices on borders do not move. So the topology, the numbers and the order of vertices and faces
+/// stay.
 ///
 /// @param vertices     (v, 3)
 /// @param coordinates  (v, d) of the vertices in the embedding, near the surface
 /// @param faces        (f, 3) edge- and vertex-manifold, oriented as the normals
-/// @param kept_edges   (k, 2) vertices at the ends of edges that stay as they are, such as creases
 /// @throws InvalidArgument on a broken contract; Cancelled
 EmbeddedMesh remesh_anisotropically(const PointsRef& vertices, const CoordinatesRef& coordinates, const FacesRef& faces,
-                                    const EdgesRef& kept_edges, const EmbeddedCloud& cloud,
-                                    const AnisotropicRemeshingOptions& options, const Progress& progress = {});
+                                    const EmbeddedCloud& cloud, const AnisotropicRemeshingOptions& options,
+                                    const Progress& progress = {});
 
 }  // namespace hdpea

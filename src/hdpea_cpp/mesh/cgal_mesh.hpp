@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// For sources that work on a mesh with CGAL; no other header of the core includes it.
+// For sources that work on a mesh with CGAL, and headers of theirs; not installed.
 #pragma once
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>

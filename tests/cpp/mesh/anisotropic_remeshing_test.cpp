@@ -21,7 +21,6 @@
 namespace hdpea {
 namespace {
 
-const Edges kNone(0, 2);
 const Points kNoPoints(0, 3);
 
 /// A fine mesh collapsed to few vertices, and the middles of its faces as the points of its surface, in R^3.
@@ -40,8 +39,8 @@ struct Case {
     bases = tangent_bases_across(normals);
   }
 
-  EmbeddedMesh remeshed(const Edges& kept = kNone, const Progress& progress = {}) const {
-    return remesh_anisotropically(mesh.vertices, mesh.coordinates, mesh.faces, kept, {points, bases, normals}, options,
+  EmbeddedMesh remeshed(const Progress& progress = {}) const {
+    return remesh_anisotropically(mesh.vertices, mesh.coordinates, mesh.faces, {points, bases, normals}, options,
                                   progress);
   }
 
@@ -132,21 +131,9 @@ TEST(AnisotropicRemeshing, LeavesNoCrease) {
   EXPECT_LT(closest_surface_points(made.vertices, made.faces, fine.vertices).distance.maxCoeff(), spacing / 4);
 }
 
-TEST(AnisotropicRemeshing, LeavesBordersAndKeptEdgesAlone) {
+TEST(AnisotropicRemeshing, LeavesBordersAlone) {
   const Case open(scattered(bumps, 4), 300);
-  Edges kept(40, 2);
-  for (Index k = 0; k < kept.rows(); ++k) kept.row(k) = open.mesh.faces.row(5 * k).head<2>();
-  const EmbeddedMesh made = open.remeshed(kept);
-  for (Index v : kept.reshaped()) EXPECT_EQ(made.vertices.row(v), open.mesh.vertices.row(v));
-  for (Index k = 0; k < kept.rows(); ++k) {
-    bool found = false;
-    for (Index f = 0; f < made.faces.rows(); ++f) {
-      for (int i = 0; i < 3; ++i) {
-        found = found || (made.faces(f, i) == kept(k, 0) && made.faces(f, (i + 1) % 3) == kept(k, 1));
-      }
-    }
-    EXPECT_TRUE(found);
-  }
+  const EmbeddedMesh made = open.remeshed();
   const auto on_border = [](const auto& p) { return p(0) < 1e-9 || p(0) > 1 - 1e-9 || p(1) < 1e-9 || p(1) > 1 - 1e-9; };
   for (Index v = 0; v < made.vertices.rows(); ++v) {
     if (!on_border(open.mesh.vertices.row(v))) continue;
@@ -195,11 +182,6 @@ TEST(AnisotropicRemeshing, RefusesBrokenInput) {
   broken = good;
   broken.options.pull = 0;
   EXPECT_THROW(broken.remeshed(), InvalidArgument);
-  Edges none(1, 2);
-  none << 0, 0;
-  EXPECT_THROW(good.remeshed(none), InvalidArgument);
-  none << 0, 100;
-  EXPECT_THROW(good.remeshed(none), InvalidArgument);
 }
 
 TEST(AnisotropicRemeshing, CanBeCancelledHalfway) {
@@ -209,7 +191,7 @@ TEST(AnisotropicRemeshing, CanBeCancelledHalfway) {
     seen = fraction;
     return fraction < 0.5;
   };
-  EXPECT_THROW(open.remeshed(kNone, stop_halfway), Cancelled);
+  EXPECT_THROW(open.remeshed(stop_halfway), Cancelled);
   EXPECT_LT(seen, 0.6);
 }
 

@@ -97,7 +97,6 @@ CALLS: dict[str, tuple[Callable[..., Any], Arguments]] = {
         _mesh()
         | {
             "coordinates": VERTICES,
-            "kept_edges": FACES[:, :2].copy(),
             "cloud": POINTS,
             "bases": BASES,
             "normals": NORMALS,

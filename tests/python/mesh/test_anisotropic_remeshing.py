@@ -64,8 +64,8 @@ def test_a_wall_thinner_than_the_vertices_are_apart_keeps_its_thickness() -> Non
     few = _core.simplify_mesh(vertices, vertices, faces, points, normals, budget, None)
     first = np.cross(normals, [0.3, 0.5, 0.8])
     first /= np.linalg.norm(first, axis=1)[:, None]
-    bases, kept = np.hstack([first, np.cross(normals, first)]), np.empty((0, 2), dtype=np.int64)
-    made = _core.remesh_anisotropically(few.vertices, few.coordinates, few.faces, kept, points, bases, normals, None)
+    bases = np.hstack([first, np.cross(normals, first)])
+    made = _core.remesh_anisotropically(few.vertices, few.coordinates, few.faces, points, bases, normals, None)
     assert trimesh.Trimesh(made.vertices, made.faces).volume > 0.95 * np.prod(size)
 
 
