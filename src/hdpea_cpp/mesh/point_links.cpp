@@ -7,6 +7,7 @@
 #include <limits>
 #include <nanoflann.hpp>
 
+#include "hdpea_cpp/mesh/measured_triangle.hpp"
 #include "hdpea_cpp/mesh/surface_distance.hpp"
 
 namespace hdpea {
@@ -28,77 +29,10 @@ constexpr double kFewPoints = 0.1, kLongestLever = 10;
 /// A corrected point comes so much nearer than it must.
 constexpr double kRoom = 0.9;
 
-/// The share of a segment at which it is nearest to a point.
-double share_along(const Eigen::Vector3d& point, const Eigen::Vector3d& from, const Eigen::Vector3d& along) {
-  const double length = along.squaredNorm();
-  return length > 0 ? std::clamp((point - from).dot(along) / length, 0.0, 1.0) : 0;
-}
-
-/// A triangle to which many distances are measured.
-class Triangle {
- public:
-  explicit Triangle(const NewFace& face)
-      : number(face.number),
-        a_(face.corners[0]),
-        b_(face.corners[1]),
-        c_(face.corners[2]),
-        ab_(b_ - a_),
-        bc_(c_ - b_),
-        ca_(a_ - c_) {
-    const Eigen::Vector3d normal = ca_.cross(ab_);
-    const double squared = normal.squaredNorm();
-    if (!(squared > 0)) return;
-    normal_ = normal / std::sqrt(squared);
-    to_b_ = normal.cross(ca_) / squared;
-    to_c_ = normal.cross(ab_) / squared;
-  }
-
-  /// The squared distance of a point, or infinity if it is no less than `bound`.
-  double squared_distance(const Eigen::Vector3d& point, double bound) const {
-    const Eigen::Vector3d d = point - a_;
-    const double height = d.dot(normal_);
-    if (height * height >= bound) return kInfinity;
-    const double b = d.dot(to_b_), c = d.dot(to_c_);
-    if (b > 0 && c > 0 && b + c < 1) return height * height;
-    double least = kInfinity;
-    for (int i = 0; i < 3; ++i) {
-      const double t = share_along(point, from(i), along(i));
-      least = std::min(least, (point - from(i) - t * along(i)).squaredNorm());
-    }
-    return least;
-  }
-
-  /// The weights of the corners at the place nearest to a point.
-  Eigen::Vector3d weights(const Eigen::Vector3d& point) const {
-    const Eigen::Vector3d d = point - a_;
-    const double b = d.dot(to_b_), c = d.dot(to_c_);
-    if (b > 0 && c > 0 && b + c < 1) return {1 - b - c, b, c};
-    Eigen::Vector3d nearest = Eigen::Vector3d::UnitX();
-    double least = kInfinity;
-    for (int i = 0; i < 3; ++i) {
-      const double t = share_along(point, from(i), along(i));
-      const double squared = (point - from(i) - t * along(i)).squaredNorm();
-      if (squared >= least) continue;
-      least = squared;
-      nearest.setZero();
-      nearest[i] = 1 - t;
-      nearest[(i + 1) % 3] = t;
-    }
-    return nearest;
-  }
-
-  Index number;
-
- private:
-  const Eigen::Vector3d& from(int i) const { return i == 0 ? a_ : i == 1 ? b_ : c_; }
-  const Eigen::Vector3d& along(int i) const { return i == 0 ? ab_ : i == 1 ? bc_ : ca_; }
-
-  Eigen::Vector3d a_, b_, c_, ab_, bc_, ca_;
-  Eigen::Vector3d normal_ = Eigen::Vector3d::Zero(), to_b_ = normal_, to_c_ = normal_;
-};
-
-std::vector<Triangle> triangles_of(const std::vector<NewFace>& faces) {
-  return std::vector<Triangle>(faces.begin(), faces.end());
+std::vector<MeasuredTriangle> triangles_of(const std::vector<NewFace>& faces) {
+  std::vector<MeasuredTriangle> triangles;
+  for (const NewFace& face : faces) triangles.emplace_back(face.corners[0], face.corners[1], face.corners[2]);
+  return triangles;
 }
 
 NewFace as_new(const EditableMesh& mesh, Index f) {
@@ -208,14 +142,14 @@ double PointLinks::worst_place(const NewFace& face, double enough) const {
 }
 
 bool PointLinks::allows(const std::vector<Index>& old, const std::vector<NewFace>& faces) const {
-  const std::vector<Triangle> triangles = triangles_of(faces);
+  const std::vector<MeasuredTriangle> triangles = triangles_of(faces);
   double allowed = error_;
   for (Index f : old) {
     allowed = std::max(allowed, worst_[f]);
     for (Index p : points_of_[f]) {
       const double squared = limit(p) * limit(p);
       const Eigen::Vector3d point = disks_.points.row(p);
-      const bool near = std::any_of(triangles.begin(), triangles.end(), [&](const Triangle& triangle) {
+      const bool near = std::any_of(triangles.begin(), triangles.end(), [&](const MeasuredTriangle& triangle) {
         return triangle.squared_distance(point, squared) < squared;
       });
       if (!near) return false;
@@ -227,7 +161,7 @@ bool PointLinks::allows(const std::vector<Index>& old, const std::vector<NewFace
 
 std::optional<Eigen::Vector3d> PointLinks::correction(const std::vector<Index>& old,
                                                       const std::vector<NewFace>& faces) const {
-  const std::vector<Triangle> triangles = triangles_of(faces);
+  const std::vector<MeasuredTriangle> triangles = triangles_of(faces);
   std::size_t points = 0, beyond = 0;
   double worst = 0;
   Eigen::Vector3d shift = Eigen::Vector3d::Zero();
@@ -261,7 +195,7 @@ std::optional<Eigen::Vector3d> PointLinks::correction(const std::vector<Index>& 
 }
 
 void PointLinks::replace(const std::vector<Index>& old, const std::vector<NewFace>& faces) {
-  const std::vector<Triangle> triangles = triangles_of(faces);
+  const std::vector<MeasuredTriangle> triangles = triangles_of(faces);
   std::vector<Index> moved;
   bool worse = false;
   for (Index f : old) {
@@ -280,11 +214,11 @@ void PointLinks::replace(const std::vector<Index>& old, const std::vector<NewFac
     const Eigen::Vector3d point = disks_.points.row(p);
     double least = kInfinity;
     Index nearest = faces.front().number;
-    for (const Triangle& triangle : triangles) {
-      const double squared = triangle.squared_distance(point, least);
+    for (std::size_t i = 0; i < triangles.size(); ++i) {
+      const double squared = triangles[i].squared_distance(point, least);
       if (squared >= least) continue;
       least = squared;
-      nearest = triangle.number;
+      nearest = faces[i].number;
     }
     distance_[p] = std::sqrt(least);
     points_of_[nearest].push_back(p);
