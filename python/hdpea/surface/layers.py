@@ -43,7 +43,6 @@ def are_layered(
     rows: NDArray[np.int64],
     around: NDArray[np.int64],
     most_height: float,
-    signed: bool = True,
 ) -> NDArray[np.bool_]:
     """Return which `rows` (m,) of points (n, 3) have another above or below that faces the same way, (m,) bool.
 
@@ -53,7 +52,7 @@ def are_layered(
     Parameters
     ----------
     normals
-        (n, 3) unit; of consistent signs where `signed`, else the sides of thin walls are layers, too.
+        (n, 3) unit, of consistent signs: the sides of thin walls are no layers.
     around
         (m, k) the nearest points of each, whatever sheet they lie on.
     most_height
@@ -67,24 +66,21 @@ def are_layered(
     # A disk that reaches to the k-th neighbour holds k points.
     spacing = lengths[:, -1] * np.sqrt(np.pi / around.shape[1])
     above = (heights > STEEP * lengths) & (heights > LEAST_HEIGHT * spacing[:, None]) & (heights < most_height)
-    alike = (cosines if signed else abs(cosines)) > ALIKE
-    return np.asarray(above.any(axis=1) & alike.all(axis=1))
+    return np.asarray(above.any(axis=1) & (cosines > ALIKE).all(axis=1))
 
 
-def have_layers(points: NDArray[np.float64], normals: NDArray[np.float64], signed: bool = True) -> bool:
+def have_layers(points: NDArray[np.float64], normals: NDArray[np.float64]) -> bool:
     """Tell whether more of points (n, 3) lie in layers, as ``are_layered`` has it, than do by chance."""
-    return len(layered_samples(points, normals, signed)) > LEAST_SHARE * min(len(points), SAMPLES)
+    return len(layered_samples(points, normals)) > LEAST_SHARE * min(len(points), SAMPLES)
 
 
-def layered_samples(
-    points: NDArray[np.float64], normals: NDArray[np.float64], signed: bool = True
-) -> NDArray[np.int64]:
+def layered_samples(points: NDArray[np.float64], normals: NDArray[np.float64]) -> NDArray[np.int64]:
     """Return the rows (m,) of those of 2,000 of the points (n, 3) that lie in layers."""
     if len(points) <= AROUND:
         return np.empty(0, dtype=np.int64)
     rows = rows_along(len(points), SAMPLES)
     around = _core.nearest_neighbors(points, np.ascontiguousarray(points[rows]), AROUND + 1)[:, 1:]
-    return rows[are_layered(points, normals, rows, around, _most_height(points, rows, around), signed)]
+    return rows[are_layered(points, normals, rows, around, _most_height(points, rows, around))]
 
 
 def layered_region(points: NDArray[np.float64], normals: NDArray[np.float64]) -> NDArray[np.int64]:

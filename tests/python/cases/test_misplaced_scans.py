@@ -29,13 +29,12 @@ def test_a_wall_whose_layers_face_the_same_way_is_one_sheet() -> None:
     assert middles(made)[:, 2].mean() == pytest.approx(0.75 / 50, rel=0.15)
 
 
-def shell(apart: float) -> tuple[Array, Array]:
-    """Return the outside and the inside of a thick ball, and their normals."""
+def shell(apart: float, inside: float) -> tuple[Array, Array]:
+    """Return the outside and the inside of a thick ball, and their normals: inside, as often the outward ones."""
     outer, inner = sphere_points(3000, 1), sphere_points(3000, 2)
-    return np.vstack([outer, (1 - apart) * inner]), np.vstack([outer, -inner])
+    return np.vstack([outer, (1 - apart) * inner]), np.vstack([outer, inside * inner])
 
 
 def test_the_sides_of_a_wall_are_no_layers_of_one_surface() -> None:
-    points, normals = shell(0.1)
-    assert not have_layers(points, normals)
-    assert have_layers(points, normals, signed=False)
+    assert not have_layers(*shell(0.1, inside=-1))
+    assert have_layers(*shell(0.1, inside=1))
