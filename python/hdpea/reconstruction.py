@@ -13,7 +13,6 @@ from hdpea.embedding.device import device_choices
 from hdpea.embedding.tangents import tangent_bases
 from hdpea.errors import core_errors_translated
 from hdpea.frontend.cleaning import surface_cloud
-from hdpea.geometry.spatial_order import spatial_order
 from hdpea.geometry.texture import Texture
 from hdpea.mesh.assembly import assemble_mesh
 from hdpea.mesh.attributes import vertex_attributes
@@ -179,7 +178,7 @@ def reconstruct(
             tell(progress, "cleaning", 0)
             found = surface_cloud(cloud, options.cleaning)
             # Nothing that is returned of the mesh is in the order of the points.
-            cloud = found.cloud.at(spatial_order(found.cloud.points))
+            cloud = found.in_order_of_space()
             tell(progress, "cleaning", 1)
         shown = found.points_shown
         per_vertex = len(cloud.points) / options.resolution_of(shown)

@@ -9,7 +9,6 @@ import numpy as np
 
 from hdpea.embedding import embed_surface
 from hdpea.frontend.cleaning import surface_cloud
-from hdpea.geometry.spatial_order import spatial_order
 from hdpea.options.embedding import BENDING_LENGTH, CURVATURE_RADIUS
 from hdpea.options.lengths import Length
 from hdpea.reading.cloud import cleaned
@@ -25,7 +24,7 @@ def prepare(work: Work, tile: int) -> None:
     plan, options = work.plan, work.options
     cloud = cleaned(tile_cloud(work.folder, plan, tile))
     found = surface_cloud(cloud, options.cleaning)
-    cloud = found.cloud.at(spatial_order(found.cloud.points))
+    cloud = found.in_order_of_space()
     per_vertex = plan.points / options.resolution_of(plan.points)
     prepared = prepare_surface(cloud, options.normals, options.denoising, per_vertex)
     surface, given = prepared.surface, prepared.oriented.surface

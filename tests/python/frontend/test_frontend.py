@@ -146,6 +146,17 @@ def test_cleaning_counts_what_it_drops_and_keeps_the_order() -> None:
     assert any(f"{strays:,}" in note for note in cleaned.notes)
 
 
+def test_strays_make_no_difference_to_the_order_in_space() -> None:
+    surface = PointCloud(sphere_points(10_100))
+    cleaned = surface_cloud(PointCloud(np.vstack([surface.points, [[9.0, 0, 0]]])))
+    left = cleaned.cloud.points
+    ordered = cleaned.in_order_of_space()
+    np.testing.assert_array_equal(ordered.points, surface_cloud(PointCloud(left)).in_order_of_space().points)
+    assert np.array_equal(np.sort(ordered.places()), cleaned.cloud.places())
+    steps = [np.linalg.norm(np.diff(each, axis=0), axis=1).mean() for each in (left, ordered.points)]
+    assert steps[1] < 0.2 * steps[0]
+
+
 def test_what_is_dropped_is_kept_apart_with_the_reason() -> None:
     lines = np.vstack([scan_lines(30, 15), [[9.0, 0.0, 0.0]]])
     cleaned = surface_cloud(PointCloud(lines))
