@@ -6,6 +6,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field, replace
 
 import numpy as np
+import torch
 from helpers.clouds import torus
 from helpers.samples import sphere_sample
 
@@ -99,3 +100,14 @@ class InMemory:
 
     def spacing(self, _name: str) -> float:
         return SPACING
+
+
+def same(first: object, second: object) -> bool:
+    """Whether nested containers hold the same tensors to the last bit."""
+    if isinstance(first, torch.Tensor) and isinstance(second, torch.Tensor):
+        return torch.equal(first, second)
+    if isinstance(first, dict) and isinstance(second, dict):
+        return first.keys() == second.keys() and all(same(first[key], second[key]) for key in first)
+    if isinstance(first, list | tuple) and isinstance(second, list | tuple):
+        return len(first) == len(second) and all(map(same, first, second))
+    return first == second

@@ -1,0 +1,70 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What ``hdpea info`` says of a file."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+from helpers import clouds
+from helpers.clouds import sphere_points
+from helpers.files import WITH_NORMALS
+
+from hdpea.cli import run
+
+Capture = pytest.CaptureFixture[str]
+
+
+def test_info_says_what_is_in_a_file(tmp_path: Path, capsys: Capture) -> None:
+    (tmp_path / "scan.ply").write_bytes(WITH_NORMALS["binary.ply"])
+    assert run(["info", str(tmp_path / "scan.ply")]) == 0
+    told = capsys.readouterr().out
+    assert "binary little-endian PLY" in told
+    assert "20 usable" in told
+
+
+@pytest.mark.parametrize(("sign", "fate"), [(1.0, "will be kept"), (-1.0, "oriented anew")])
+def test_info_says_what_becomes_of_the_normals(sign: float, fate: str, tmp_path: Path, capsys: Capture) -> None:
+    points, normals = clouds.torus(800)
+    normals[::2] *= sign
+    np.savetxt(tmp_path / "scan.xyz", np.hstack([points, normals]))
+    assert run(["info", str(tmp_path / "scan.xyz")]) == 0
+    assert fate in capsys.readouterr().out
+
+
+def test_info_tells_directions_that_are_no_normals(tmp_path: Path, capsys: Capture) -> None:
+    points, normals = clouds.torus(800)
+    np.savetxt(tmp_path / "scan.xyz", np.hstack([points, np.random.default_rng(0).permutation(normals)]))
+    assert run(["info", str(tmp_path / "scan.xyz")]) == 0
+    assert "do not lie across the surface" in capsys.readouterr().out
+
+
+def test_info_says_what_a_run_would_leave_out(scan_with_strays: str, capsys: Capture) -> None:
+    assert run(["info", scan_with_strays]) == 0
+    told = capsys.readouterr().out
+    assert "along the surface" in told
+    assert "lie on no surface" in told
+
+
+def test_info_says_that_points_are_too_few(tmp_path: Path, capsys: Capture) -> None:
+    np.savetxt(tmp_path / "scan.xyz", sphere_points(15))
+    assert run(["info", str(tmp_path / "scan.xyz")]) == 0
+    assert "a run needs at least 16 points" in capsys.readouterr().out
+
+
+def test_info_as_json(tmp_path: Path, capsys: Capture) -> None:
+    np.save(tmp_path / "scan.npy", 1e7 + sphere_points(500))
+    assert run(["info", str(tmp_path / "scan.npy"), "--json"]) == 0
+    facts = json.loads(capsys.readouterr().out)
+    assert facts["counts"]["points"] == 500
+    assert facts["diagonal"] == pytest.approx(12**0.5, rel=0.05)
+    assert 0.02 < facts["spacing"] < 0.1
+    assert facts["estimated_seconds"] > 0
+
+
+def test_info_of_a_single_point(tmp_path: Path, capsys: Capture) -> None:
+    (tmp_path / "scan.xyz").write_text("1 2 3\n")
+    assert run(["info", str(tmp_path / "scan.xyz")]) == 0
+    assert "unknown" in capsys.readouterr().out
