@@ -206,13 +206,13 @@ def reconstruct(
     journal.choices += device_choices(options.embedding.device)
     journal.choices += [*prepared.choices, *noise_choices, *count_choices, *embedded.choices, *mesh.choices]
     journal.meshing |= mesh.statistics
-    distances, agreement, _ = measured.comparison
+    distances, agreement, _, along_z = measured.comparison
     coarse = coarseness(distances, surface.frame.diagonal, options.meshing)
     about_mesh = [*faced.notes, *coarse, *measured.comparison.missing_part()]
     journal.notes += [*cloud.notes, *found.notes, *prepared.notes, *about_mesh]
     targets = missed_targets(mesh, measured.facts, options.meshing)
     journal.missed += [*prepared.missed, *targets, *measured.error.missed(), *agreement.missed()]
-    report = Report.of(journal, measured.facts, distances, agreement, measured.error)
+    report = Report.of(journal, measured.facts, distances, agreement, measured.error, along_z)
     return Reconstruction(
         surface.frame.to_world(mesh.vertices_in_unit),
         mesh.faces,

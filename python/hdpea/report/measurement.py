@@ -16,7 +16,8 @@ from hdpea.mesh.error_bound import ErrorBound
 from hdpea.mesh.extraction import Mesh
 from hdpea.options import MeshingOptions
 from hdpea.report.agreement import Agreement, agreement_of, distances_to
-from hdpea.report.report import Distances, LevelFacts, MeshFacts
+from hdpea.report.heights import height_differences, is_height_field
+from hdpea.report.report import Distances, HeightDifferences, LevelFacts, MeshFacts
 from hdpea.surface.preparation import Preparation
 from hdpea.surface.surface import Surface
 
@@ -67,12 +68,14 @@ def mesh_facts(mesh: Mesh) -> MeshFacts:
 class Comparison(NamedTuple):
     """A mesh next to its points: how far these are, as they were given, and what either has alone, as embedded.
 
-    ``farthest`` is the largest distance of an embedded point from the mesh, in spacings of its vertices.
+    ``farthest`` is the largest distance of an embedded point from the mesh, in spacings of its vertices; ``along_z`` is
+    None unless the mesh is a height field.
     """
 
     distances: Distances
     agreement: Agreement
     farthest: float
+    along_z: HeightDifferences | None = None
 
     def missing_part(self) -> Iterator[str]:
         """Yield a sentence if a part of the points may have no mesh."""
@@ -95,6 +98,7 @@ def compare(mesh: Mesh, prepared: Preparation, vertices: int) -> Comparison:
         Distances.of(distances * diagonal, given.spacing * diagonal),
         agreement_of(mesh, embedded, vertices, of_embedded),
         float(of_embedded.max()) / vertex_spacing if vertex_spacing > 0 else 0.0,
+        HeightDifferences.of(height_differences(mesh, given) * diagonal) if is_height_field(mesh) else None,
     )
 
 

@@ -76,6 +76,25 @@ class Distances:
         return {"spacing": self.spacing, "in_world_units": in_world, "in_spacings": in_spacings}
 
 
+@dataclass(frozen=True)
+class HeightDifferences:
+    """How far the points are above or below the mesh, along z and in world units; ``points`` are as many as are."""
+
+    points: int
+    rms: float
+    percentile_95: float
+    max: float
+
+    @classmethod
+    def of(cls, differences: NDArray[np.float64]) -> HeightDifferences | None:
+        """Sum up those (n,) that are known, of either sign; the others are NaN. None if none is."""
+        known = abs(differences[np.isfinite(differences)])
+        if not len(known):
+            return None
+        found = Distances.of(known, 0.0)
+        return cls(len(known), found.rms, found.percentile_95, found.max)
+
+
 @dataclass(kw_only=True)
 class Journal:
     """What a run takes down stage by stage.
@@ -121,14 +140,21 @@ class Report(Journal):
     distances: Distances
     agreement: Agreement
     error: AchievedError
+    along_z: HeightDifferences | None = None
 
     @classmethod
     def of(
-        cls, journal: Journal, mesh: MeshFacts, distances: Distances, agreement: Agreement, error: AchievedError
+        cls,
+        journal: Journal,
+        mesh: MeshFacts,
+        distances: Distances,
+        agreement: Agreement,
+        error: AchievedError,
+        along_z: HeightDifferences | None = None,
     ) -> Report:
         """Close the journal; both go on sharing its lists and its clock."""
         taken_down = {each.name: getattr(journal, each.name) for each in fields(journal)}
-        return cls(**taken_down, mesh=mesh, distances=distances, agreement=agreement, error=error)
+        return cls(**taken_down, mesh=mesh, distances=distances, agreement=agreement, error=error, along_z=along_z)
 
     def begin_with(self, name: str, clock: StageClock) -> None:
         """Put the reading of the input, and what it took, before everything else."""
@@ -146,7 +172,7 @@ class Report(Journal):
             "choices": [asdict(choice) for choice in self.choices],
             "meshing": self.meshing,
             "mesh": asdict(self.mesh),
-            "distances": self.distances.as_dict(),
+            "distances": self.distances.as_dict() | {"along_z": self.along_z and asdict(self.along_z)},
             "agreement": asdict(self.agreement),
             "error": asdict(self.error),
             "levels": [asdict(level) for level in self.levels],

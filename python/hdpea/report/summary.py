@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 from hdpea.options.choice import Choice
 from hdpea.report.achieved_error import AchievedError
-from hdpea.report.report import Distances, MeshFacts, Report
+from hdpea.report.report import Distances, HeightDifferences, MeshFacts, Report
 
 MUCH_FILLED = 0.005
 """Share of the area from which on it is said that holes were filled: less is what cells leave open between points."""
@@ -27,7 +27,7 @@ def summarize(report: Report, where: str, verbose: bool = False) -> str:
 def outcome(report: Report) -> Iterator[str]:
     """Yield what came out, and how good it is; a line each."""
     yield _mesh(report.mesh) + _filled(report.meshing.get("area_filled", 0))
-    yield _distances(report.distances) + _error(report.error)
+    yield _distances(report.distances) + _along_z(report.along_z) + _error(report.error)
     for number, level in enumerate(report.levels, start=1):
         yield f"level {number}: {level.vertices:,} vertices, {level.faces:,} faces, error {level.error:.3g}"
 
@@ -67,6 +67,10 @@ def _distances(distances: Distances) -> str:
         f"points to mesh: rms {distances.rms:.3g}{spacings}, "
         f"95% within {distances.percentile_95:.3g}, max {distances.max:.3g}"
     )
+
+
+def _along_z(differences: HeightDifferences | None) -> str:
+    return "" if differences is None else f"; along z: rms {differences.rms:.3g}, max {differences.max:.3g}"
 
 
 def _error(error: AchievedError) -> str:

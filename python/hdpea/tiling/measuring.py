@@ -12,7 +12,8 @@ from hdpea.mesh.error_bound import PLACES, ErrorBound
 from hdpea.mesh.extraction import Mesh
 from hdpea.report.achieved_error import AchievedError
 from hdpea.report.agreement import Agreement, agreement_of, distances_to
-from hdpea.report.report import Distances
+from hdpea.report.heights import height_differences, is_height_field
+from hdpea.report.report import Distances, HeightDifferences
 from hdpea.tiling.work import Agreed, Work, surface_of
 
 BEYOND = 1.5
@@ -35,15 +36,15 @@ def measure(work: Work, tile: int) -> None:
         "mesh_to_points": 0.0,
         "moved": float(np.linalg.norm(kept["points"] - kept["given"], axis=1).max()),
     }
-    distances = np.full(len(given.points_in_unit), np.inf)
+    distances, heights = np.full(len(given.points_in_unit), np.inf), np.full(len(given.points_in_unit), np.nan)
     if len(around.faces):
-        distances = distances_to(around, given)
+        distances, heights = distances_to(around, given), height_differences(around, given)
         facts["points_without_mesh"] = agreement_of(around, surface, vertices).points_without_mesh
     if len(own.faces):
         facts["area_without_points"] = agreement_of(own, surface, vertices).area_without_points
         places = max(PLACES // work.plan.tiles, LEAST_PLACES)
         facts["mesh_to_points"] = ErrorBound(surface, 0.0).reached(own, places).mesh_to_points
-    work.folder.save("measured", tile, {"distances": distances}, facts)
+    work.folder.save("measured", tile, {"distances": distances, "heights": heights}, facts)
 
 
 def _part_of_mesh(work: Work, tile: int, beyond: float) -> Mesh:
@@ -55,13 +56,16 @@ def _part_of_mesh(work: Work, tile: int, beyond: float) -> Mesh:
     return Mesh(vertices[used], numbers.reshape(-1, 3), vertices[used], patches=whole["patches"])
 
 
-def measured(work: Work) -> tuple[Distances, Agreement, AchievedError]:
-    """Return what all tiles have measured, in world units."""
+def measured(work: Work) -> tuple[Distances, Agreement, AchievedError, HeightDifferences | None]:
+    """Return what all tiles have measured, in world units; differences in height if the mesh is a height field."""
     tiles, diagonal = range(work.plan.tiles), work.plan.frame.diagonal
     facts = [work.folder.facts("measured", tile) for tile in tiles]
-    each = [work.folder.load("measured", tile)["distances"] for tile in tiles]
-    points, area = np.array([len(some) for some in each]), np.array([some["area"] for some in facts])
-    distances = np.concatenate(each) * diagonal
+    each = [work.folder.load("measured", tile) for tile in tiles]
+    points, area = np.array([len(some["distances"]) for some in each]), np.array([some["area"] for some in facts])
+    distances, heights = (np.concatenate([some[name] for some in each]) * diagonal for name in ("distances", "heights"))
+    whole = work.folder.load("mesh")
+    mesh = Mesh(whole["vertices"], whole["faces"], whole["vertices"])
+    along_z = HeightDifferences.of(heights) if is_height_field(mesh) else None
     spacing = float(np.average([work.folder.facts("prepared", tile)["spacing"] for tile in tiles], weights=points))
     agreement = Agreement(
         float(np.average([some["points_without_mesh"] for some in facts], weights=points)),
@@ -69,4 +73,4 @@ def measured(work: Work) -> tuple[Distances, Agreement, AchievedError]:
     )
     mesh_to_points, moved = (diagonal * max(some[name] for some in facts) for name in ("mesh_to_points", "moved"))
     error = AchievedError(None, float(distances.max()), mesh_to_points, moved)
-    return Distances.of(distances, spacing * diagonal), agreement, error
+    return Distances.of(distances, spacing * diagonal), agreement, error, along_z

@@ -177,7 +177,7 @@ def _result(stream: PointStream, work: Work, tiling: Tiling, journal: Journal) -
     kept, facts = work.folder.load("mesh"), work.folder.facts("mesh")
     tiles = [work.folder.facts("prepared", tile) for tile in range(work.plan.tiles)]
     mesh = Mesh(kept["vertices"], kept["faces"], kept["vertices"], self_intersections=facts["self_intersections"])
-    distances, agreement, error = measured(work)
+    distances, agreement, error, along_z = measured(work)
     found = mesh_facts(mesh)
     journal.source["format"] = stream.format
     journal.counts |= {
@@ -203,7 +203,7 @@ def _result(stream: PointStream, work: Work, tiling: Tiling, journal: Journal) -
     journal.notes += facts["notes"]
     journal.missed += dict.fromkeys(why for each in tiles for why in each["missed"])
     journal.missed += [*missed_targets(mesh, found, work.options.meshing), *agreement.missed()]
-    report = Report.of(journal, found, distances, agreement, error)
+    report = Report.of(journal, found, distances, agreement, error, along_z)
     return Reconstruction(work.plan.frame.to_world(mesh.vertices_in_unit), mesh.faces, report, crs=stream.crs)
 
 
