@@ -201,6 +201,7 @@ def fit_of_mesh(points: np.ndarray, normals: np.ndarray, area: float) -> Curvatu
         fitted.principal,
         metric_tensors(normals, fitted.direction1, stretches),
         stretches[:, 0] >= LEAST_RATIO * stretches[:, 1],
+        np.arange(len(points)),
         signed=True,
         curvature_range=metric.curvature_range,
     )

@@ -33,7 +33,7 @@ def command(ctx: click.Context, /, *, source: str, output: Path, force: bool, qu
     OUT is NPZ (arrays points and normals of shape (n, 3), coordinates of shape (n, 8)) or PLY
     (embedding_0 to embedding_7 as properties of the points). IN is as for reconstruct. It shows
     as much detail as the particles that a mesh of that many --vertices is made of. Points that lie
-    on no surface or crowd on scan lines are left out.
+    on no surface or crowd on scan lines are left out; point_index says which of IN are there.
     """
     options = chosen_options(ctx, values)
     from hdpea.reading import read_points
@@ -54,7 +54,7 @@ def command(ctx: click.Context, /, *, source: str, output: Path, force: bool, qu
 
         embedding = embed_points(cloud, options=options, progress=progress)
         tell(progress, "writing", 0.0)
-        write_points(output, embedding.points, embedding.normals, embedding.coordinates)
+        write_points(output, embedding.points, embedding.normals, embedding.coordinates, embedding.point_index)
     if not quiet:
         from hdpea.report.summary import describe
 

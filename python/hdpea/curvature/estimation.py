@@ -96,7 +96,7 @@ def estimate_curvature(
             estimate = _at_all_points(cloud, prepared.surface, estimate, metric, signed)
         estimate = replace(estimate, choices=(*choices, *prepared.choices, *estimate.choices))
         notes = (*cloud.notes, *found.notes, *prepared.notes, *_notes(estimate))
-        return _in_world(cloud.points, prepared.surface.frame.diagonal, estimate, metric, signed, notes)
+        return _in_world(cloud, prepared.surface.frame.diagonal, estimate, metric, signed, notes)
 
 
 def _resolution(points: int, vertices: int | None) -> tuple[int, NDArray[np.int64]]:
@@ -155,7 +155,7 @@ def _estimate(
 
 
 def _in_world(
-    points: NDArray[np.float64],
+    cloud: PointCloud,
     diagonal: float,
     estimate: Estimate,
     metric: Metric | None,
@@ -165,7 +165,7 @@ def _in_world(
     direction1 = np.where(estimate.determined[:, None], estimate.direction1, 0.0)
     low, high = (0.0, np.inf) if signed else metric.curvature_range if metric else (np.nan, np.nan)
     return CurvatureTensors(
-        points=points,
+        points=cloud.points,
         normals=estimate.normals,
         direction1=direction1,
         direction2=np.cross(estimate.normals, direction1),
@@ -173,6 +173,7 @@ def _in_world(
         curvatures=estimate.curvatures / diagonal,
         metric=metric_tensors(estimate.normals, estimate.direction1, estimate.stretches),
         determined=estimate.determined,
+        point_index=cloud.places(),
         signed=signed,
         curvature_range=(low / diagonal, high / diagonal),
         choices=estimate.choices,

@@ -60,6 +60,8 @@ class CurvatureTensors:
     determined
         (n,) bool: False where the surface is flat or round within the accuracy of the estimate, so that any two
         directions are principal ones, and where there are too few neighbours.
+    point_index
+        (n,) int64, ascending: the row of each among the points that were given, or in the file.
     signed
         Whether curvatures have signs.
     curvature_range
@@ -78,6 +80,7 @@ class CurvatureTensors:
     curvatures: Rows
     metric: Rows
     determined: NDArray[np.bool_]
+    point_index: NDArray[np.int64]
     signed: bool
     curvature_range: tuple[float, float]
     choices: tuple[Choice, ...] = ()

@@ -6,6 +6,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from importlib.util import find_spec
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,18 +14,16 @@ from numpy.typing import NDArray
 from hdpea.curvature.tensors import CurvatureTensors
 from hdpea.errors import UsageError
 from hdpea.runtime.outputs import check_output, replacing
-from hdpea.writing.marking import save_arrays
+from hdpea.writing.marking import marked, save_arrays
 from hdpea.writing.meshes import point_ply
-
-Rows = NDArray[np.float64]
 
 UPPER = np.triu_indices(3)
 """Of a metric tensor, which is symmetric: xx, xy, xz, yy, yz, zz."""
 
 
-def columns_of(tensors: CurvatureTensors) -> dict[str, Rows]:
+def columns_of(tensors: CurvatureTensors) -> dict[str, NDArray[Any]]:
     """Return every number of each point but its position and normal, as columns (n,) by name."""
-    columns = {
+    columns: dict[str, NDArray[Any]] = {
         f"direction{which}_{axis}": column
         for which, direction in ((1, tensors.direction1), (2, tensors.direction2))
         for axis, column in zip("xyz", direction.T, strict=True)
@@ -33,7 +32,7 @@ def columns_of(tensors: CurvatureTensors) -> dict[str, Rows]:
         columns |= {f"{name}{which}": pair[:, which - 1] for which in (1, 2)}
     columns["stretching_ratio"] = tensors.stretching_ratio
     columns |= {f"metric_{'xyz'[i]}{'xyz'[j]}": tensors.metric[:, i, j] for i, j in zip(*UPPER, strict=True)}
-    return columns | {"determined": tensors.determined.astype(np.float64)}
+    return columns | {"determined": tensors.determined.astype(np.float64), "point_index": tensors.point_index}
 
 
 def arrays_of(tensors: CurvatureTensors) -> dict[str, NDArray[np.generic]]:
@@ -47,6 +46,7 @@ def arrays_of(tensors: CurvatureTensors) -> dict[str, NDArray[np.generic]]:
         "stretching_ratio": tensors.stretching_ratio,
         "metric": tensors.metric,
         "determined": tensors.determined,
+        "point_index": tensors.point_index,
     }
 
 
@@ -92,11 +92,11 @@ def _write_npz(path: Path, tensors: CurvatureTensors) -> None:
 def _write_csv(path: Path, tensors: CurvatureTensors) -> None:
     columns = columns_of(tensors)
     names = ["x", "y", "z", "nx", "ny", "nz", *columns]
-    table = np.column_stack([tensors.points, tensors.normals, *columns.values()])
+    numbers = [each.tolist() for each in (*tensors.points.T, *tensors.normals.T, *columns.values())]
     with path.open("w") as file:
         file.write(",".join(names) + "\n")
         # repr is the shortest text that reads back as the same number.
-        file.writelines(",".join(map(repr, row)) + "\n" for row in table.tolist())
+        file.writelines(",".join(map(repr, row)) + "\n" for row in zip(*numbers, strict=True))
 
 
 def _write_vtp(path: Path, tensors: CurvatureTensors) -> None:
@@ -106,6 +106,7 @@ def _write_vtp(path: Path, tensors: CurvatureTensors) -> None:
     for name, array in arrays_of(tensors).items():
         cloud.point_data[name] = array.reshape(len(array), -1) if array.ndim > 2 else array
     cloud.save(path)
+    path.write_bytes(marked(path.read_bytes(), ".vtp", "curvature"))
 
 
 CURVATURE_FORMATS: dict[str, Callable[[Path, CurvatureTensors], None]] = {

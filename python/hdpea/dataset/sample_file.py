@@ -21,6 +21,7 @@ from hdpea.errors import UnreadableInput
 from hdpea.geometry.unit_frame import UnitFrame
 from hdpea.reading import DAMAGE, read_bytes
 from hdpea.runtime.outputs import check_output, replacing
+from hdpea.writing.marking import save_arrays
 
 SCHEMA = 1
 SAMPLE_FORMATS = (".npz",)
@@ -49,7 +50,7 @@ def encoded(sample: Sample) -> bytes:
     stored: dict[str, Any] = {name: np.asarray(array, "<f4") for name, array in arrays.items() if array is not None}
     stored |= {"centre_in_world": np.asarray(sample.frame.centre_in_world, "<f8"), "diagonal": sample.frame.diagonal}
     stream = io.BytesIO()
-    np.savez(stream, schema=np.int64(SCHEMA), **stored)
+    save_arrays(stream, "sample", schema=np.int64(SCHEMA), **stored)
     return stream.getvalue()
 
 

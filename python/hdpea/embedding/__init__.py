@@ -47,6 +47,8 @@ class Embedding:
         (n, 3) float64, unit, consistently oriented.
     coordinates
         (n, 8) float64: the points in the unit frame, then psi.
+    point_index
+        (n,) int64, ascending: the row of each among the points that were given, or in the file.
     world_from_unit
         The unit frame.
     choices
@@ -58,6 +60,7 @@ class Embedding:
     points: NDArray[np.float64]
     normals: NDArray[np.float64]
     coordinates: NDArray[np.float64]
+    point_index: NDArray[np.int64]
     world_from_unit: UnitFrame
     choices: tuple[Choice, ...] = ()
     notes: tuple[str, ...] = ()
@@ -123,4 +126,5 @@ def embed_points(
     if options.embedding.embedding == "learned":
         choices += device_choices(options.embedding.device)
     notes = (*cloud.notes, *found.notes, *prepared.notes)
-    return Embedding(cloud.points, surface.normals, embedded.coordinates, surface.frame, choices, notes)
+    index = cloud.places()
+    return Embedding(cloud.points, surface.normals, embedded.coordinates, index, surface.frame, choices, notes)

@@ -46,6 +46,9 @@ class PointCloud:
         Whether it went through ``cleaned``.
     crs
         The coordinate reference system of the points, as WKT or such as EPSG:25832, if the file says one.
+    point_index
+        (n,) int64: the place of each point among all of its file, or of the arrays, counted from 0; None while they are
+        all there, in their order.
     """
 
     points: NDArray[np.float64]
@@ -58,6 +61,7 @@ class PointCloud:
     unusable_normals: int = 0
     clean: bool = False
     crs: str | None = None
+    point_index: NDArray[np.int64] | None = None
 
     def sensors(self) -> NDArray[np.float64] | None:
         """Return from where each point was seen, (n, 3), if the file says so: in sensor_x, y and z, or in sensor."""
@@ -70,6 +74,10 @@ class PointCloud:
         is_positions = array.shape == self.points.shape and array.dtype.kind in "fiu"
         return array.astype(np.float64) if is_positions else None
 
+    def places(self) -> NDArray[np.int64]:
+        """Return the place of each point (n,) among all of its file, or of the arrays, counted from 0."""
+        return np.arange(len(self.points)) if self.point_index is None else self.point_index
+
     def at(self, rows: NDArray[np.int64]) -> PointCloud:
         """Return the cloud of the points in these rows (m,)."""
         return replace(
@@ -77,6 +85,7 @@ class PointCloud:
             points=np.ascontiguousarray(self.points[rows]),
             normals=None if self.normals is None else self.normals[rows],
             attributes={name: values[rows] for name, values in self.attributes.items()},
+            point_index=self.places()[rows],
         )
 
     def counts(self) -> dict[str, int]:

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import tempfile
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -56,16 +57,19 @@ def parse_e57(data: bytes) -> PointCloud:
                         f"it cannot hold the {header.point_count:,} points that its header announces.",
                         "It may have been cut off while being copied.",
                     )
-            scans = [_scan(file, header, seen) for header in headers if header.point_count]
+            filled = [header for header in headers if header.point_count]
+            starts = np.cumsum([0, *(header.point_count for header in filled)])
+            scans = [_scan(file, header, seen) for header in filled]
             crs = _crs(file)
     if not scans:
         return PointCloud(np.empty((0, 3)), format="E57")
-    cloud = merged(scans)
     kind = f"E57, {len(scans)} scan{'s' if len(scans) > 1 else ''}"
-    return PointCloud(cloud.points, cloud.normals, cloud.attributes, kind, cloud.notes, crs=crs)
+    point_index = np.concatenate([start + kept for start, (_, kept) in zip(starts, scans, strict=False)])
+    return replace(merged([scan for scan, _ in scans]), format=kind, crs=crs, point_index=point_index)
 
 
-def _scan(file: Any, header: Any, seen: bool) -> PointCloud:
+def _scan(file: Any, header: Any, seen: bool) -> tuple[PointCloud, NDArray[np.int64]]:
+    """Return the valid points of a scan, and which of all they are."""
     from pye57 import libe57
     from pye57.utils import convert_spherical_to_cartesian
 
@@ -77,7 +81,7 @@ def _scan(file: Any, header: Any, seen: bool) -> PointCloud:
     invalid = next(
         (fields[name] for name in ("cartesianInvalidState", "sphericalInvalidState") if name in fields), None
     )
-    kept = slice(None) if invalid is None else invalid == 0
+    kept = np.arange(header.point_count) if invalid is None else np.flatnonzero(invalid == 0)
     if "cartesianX" in fields:
         local = np.stack([fields[f"cartesian{axis}"][kept] for axis in "XYZ"], axis=1)
     else:
@@ -95,7 +99,7 @@ def _scan(file: Any, header: Any, seen: bool) -> PointCloud:
         columns["return_number"] = fields["returnIndex"][kept] + np.uint8(1)
     if seen:
         columns["sensor"] = np.tile(header.translation, (len(points), 1))
-    return from_columns(columns, "E57")
+    return from_columns(columns, "E57"), kept
 
 
 def _narrow(values: NDArray[Any]) -> NDArray[Any]:

@@ -6,6 +6,7 @@ from __future__ import annotations
 import io
 import struct
 from collections.abc import Iterable
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -31,14 +32,18 @@ VLRS, VLR_HEADER, EVLR_HEADER = struct.Struct("<100xI"), 54, 60
 CHUNK_TABLE, CHUNKS = struct.Struct("<q"), struct.Struct("<4xI")
 """Before the points, where the table of chunks is; in that, how many there are, of which each takes bytes."""
 
+COLORS = (("red", "green", "blue"), ("nir",))
+"""Dimensions that a format with colours has, whether anybody filled them in or not."""
+
 _GRID = frozenset("XYZ")
 
 
 def parse_las(data: bytes) -> PointCloud:
     """Read the points of a LAS, LAZ or COPC file at its scale and offset, with all their dimensions and their CRS.
 
-    Points that are marked as withheld, which the format takes for deleted, are left out; so are dimensions that are
-    zero everywhere, as files have many that nobody filled in.
+    Points that are marked as withheld, which the format takes for deleted, are left out. A dimension that is zero
+    everywhere stays, so that the files of a delivery, which have one format, have the same attributes. Colours that are
+    black everywhere do not: nobody filled them in, and they would paint the mesh black.
 
     Raises
     ------
@@ -72,11 +77,14 @@ def parse_las(data: bytes) -> PointCloud:
             raise ValueError(f"it ends after {start} of its {header.point_count} points")
         told = [*header.vlrs, *(header.evlrs or [])]
     kept = ~columns.pop("withheld").astype(bool) if "withheld" in columns else np.ones(start, bool)
-    filled = {name: values[kept] for name, values in columns.items() if name in "xyz" or values[kept].any()}
+    for group in COLORS:
+        if not any(columns[name].any() for name in group if name in columns):
+            columns = {name: values for name, values in columns.items() if name not in group}
     withheld = start - int(kept.sum())
     notes = [f"Left out points that are withheld: {withheld:,}."] if withheld else []
-    cloud = from_columns(filled, f"{'LAZ' if header.are_points_compressed else 'LAS'} {header.version}", notes)
-    return PointCloud(cloud.points, cloud.normals, cloud.attributes, cloud.format, cloud.notes, crs=crs_of(told))
+    kind = f"{'LAZ' if header.are_points_compressed else 'LAS'} {header.version}"
+    cloud = from_columns({name: values[kept] for name, values in columns.items()}, kind, notes)
+    return replace(cloud, crs=crs_of(told), point_index=np.flatnonzero(kept) if withheld else None)
 
 
 def parse_las_chunk(chunk: Any) -> PointCloud:

@@ -43,13 +43,15 @@ def parse_ptx(data: bytes) -> PointCloud:
     sensors = np.vstack([scan[2] for scan in scans])
     if sensors.any():
         attributes["sensor"] = sensors
-    missing = sum(scan[3] for scan in scans)
+    seen = np.concatenate([scan[3] for scan in scans])
+    missing = len(seen) - len(points)
     notes = (f"Left out pixels without a point: {missing:,}.",) if missing else ()
-    return PointCloud(points, None, attributes, f"PTX, {len(scans)} scan{'s' if len(scans) > 1 else ''}", notes)
+    kind = f"PTX, {len(scans)} scan{'s' if len(scans) > 1 else ''}"
+    return PointCloud(points, None, attributes, kind, notes, point_index=np.flatnonzero(seen))
 
 
-_Scan = tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64], int]
-"""Points (n, 3), what follows them (n, c), where each was seen from (n, 3), and how many pixels have no point."""
+_Scan = tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64], NDArray[np.bool_]]
+"""Points (n, 3), what follows them (n, c), where each was seen from (n, 3), and which pixels (p,) have a point."""
 
 
 def _scans(lines: Sequence[str]) -> Iterator[_Scan]:
@@ -67,8 +69,9 @@ def _scans(lines: Sequence[str]) -> Iterator[_Scan]:
         table = parse_table(lines[body : body + count], body + 1)
         if table.shape[1] < 3:
             raise UnreadableInput(f"it has {table.shape[1]} numbers per line, where x, y and z are needed.")
-        seen = table[table[:, :3].any(axis=1)]
+        has_point = np.asarray(table[:, :3].any(axis=1))
+        seen = table[has_point]
         # The matrix is that of row vectors: its last row is the translation.
         points = seen[:, :3] @ transform[:3, :3] + transform[3, :3]
-        yield points, seen[:, 3:], np.tile(sensor, (len(seen), 1)), count - len(seen)
+        yield points, seen[:, 3:], np.tile(sensor, (len(seen), 1)), has_point
         start = body + count

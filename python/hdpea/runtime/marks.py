@@ -12,15 +12,21 @@ LOOKED_THROUGH = 4096
 """Bytes at the beginning and at the end of a file, one of which holds the mark."""
 
 
+HEADERS = {"curvature": b"x,y,z,nx,ny,nz,direction1_x,"}
+"""How tables of a kind begin: CSV has no comments, but no scan has such columns."""
+
+
 def mark_of(kind: str) -> str:
     """Return what a file of this kind, such as ``"mesh"``, says of itself, as a comment of its format."""
     return f"made by hdpea: {kind}"
 
 
 def is_marked(path: Path, kind: str) -> bool:
-    """Say whether hdpea wrote the file as one of this kind; a format without comments never says so."""
+    """Say whether hdpea wrote the file as one of this kind: by its mark, or by the header of a table."""
     with path.open("rb") as file:
         beginning = file.read(LOOKED_THROUGH)
+        if kind in HEADERS and beginning.startswith(HEADERS[kind]):
+            return True
         size = file.seek(0, 2)
         file.seek(max(size - LOOKED_THROUGH, 0))
         return mark_of(kind).encode() in beginning + b"\0" + file.read()

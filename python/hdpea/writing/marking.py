@@ -7,10 +7,9 @@ import json
 import struct
 import zipfile
 from pathlib import Path
-from typing import Any
+from typing import Any, BinaryIO
 
 import numpy as np
-from numpy.typing import NDArray
 
 from hdpea.runtime.marks import mark_of
 
@@ -22,7 +21,7 @@ GLB_HEADER = struct.Struct("<4sIIII")
 
 
 def marked(content: bytes, extension: str, kind: str = "mesh") -> bytes:
-    """Return the content of a PLY, OBJ, OFF, STL or GLB file with its mark."""
+    """Return the content of a PLY, OBJ, OFF, STL, VTP or GLB file with its mark."""
     mark = mark_of(kind).encode()
     match extension:
         case ".ply":
@@ -33,12 +32,18 @@ def marked(content: bytes, extension: str, kind: str = "mesh") -> bytes:
         case ".off":
             # At the end, where no program looks any more: not all of them know comments.
             return content + b"# " + mark + b"\n"
-        case ".stl" if content.startswith(b"solid"):
-            return b"solid " + mark + b"\n" + content.split(b"\n", 1)[1]
         case ".stl":
-            return mark.ljust(STL_HEADER, b"\0") + content[STL_HEADER:]
+            return _marked_stl(content, mark)
+        case ".vtp":
+            return content.replace(b"<VTKFile", b"<!-- " + mark + b" -->\n<VTKFile", 1)
         case _:
             return _marked_glb(content, mark.decode())
+
+
+def _marked_stl(content: bytes, mark: bytes) -> bytes:
+    if content.startswith(b"solid"):
+        return b"solid " + mark + b"\n" + content.split(b"\n", 1)[1]
+    return mark.ljust(STL_HEADER, b"\0") + content[STL_HEADER:]
 
 
 def _marked_glb(content: bytes, mark: str) -> bytes:
@@ -51,8 +56,8 @@ def _marked_glb(content: bytes, mark: str) -> bytes:
     return GLB_HEADER.pack(magic, version, size + len(text) - length, len(text), kind) + text + content[end:]
 
 
-def save_arrays(path: Path, kind: str, **arrays: NDArray[Any]) -> None:
+def save_arrays(file: Path | BinaryIO, kind: str, **arrays: Any) -> None:
     """Write arrays by name as an NPZ file with the mark of its kind."""
-    np.savez(path, **arrays)  # type: ignore[arg-type] # numpy's types take names for its flags
-    with zipfile.ZipFile(path, "a") as archive:
+    np.savez(file, **arrays)
+    with zipfile.ZipFile(file, "a") as archive:
         archive.comment = mark_of(kind).encode()

@@ -151,8 +151,10 @@ def _checked(vertices: ArrayLike, faces: ArrayLike) -> tuple[Points, Faces]:
     return rows.astype(np.float64), corners.astype(np.int64)
 
 
-def write_points(path: Path, points: Points, normals: Points, coordinates: Points) -> None:
-    """Write embedded points as NPZ (arrays of these names) or PLY (embedding_0 to embedding_7).
+def write_points(
+    path: Path, points: Points, normals: Points, coordinates: Points, point_index: NDArray[np.int64]
+) -> None:
+    """Write embedded points as NPZ (arrays of these names) or PLY (embedding_0 to embedding_7, point_index).
 
     Parameters
     ----------
@@ -162,6 +164,8 @@ def write_points(path: Path, points: Points, normals: Points, coordinates: Point
         (n, 3) float64.
     coordinates
         (n, 8) float64, the embedding.
+    point_index
+        (n,) int64, which of the points of the input they are.
 
     Raises
     ------
@@ -171,9 +175,10 @@ def write_points(path: Path, points: Points, normals: Points, coordinates: Point
     check_output(path, POINT_FORMATS)
     with replacing(path) as partial:
         if path.suffix.lower() == ".npz":
-            save_arrays(partial, "embedding", points=points, normals=normals, coordinates=coordinates)
+            arrays = {"points": points, "normals": normals, "coordinates": coordinates, "point_index": point_index}
+            save_arrays(partial, "embedding", **arrays)
         else:
-            others = {f"embedding_{i}": column for i, column in enumerate(coordinates.T)}
+            others = {"embedding": coordinates, "point_index": point_index}
             partial.write_bytes(point_ply(points, normals, others, "embedding"))
 
 
@@ -184,14 +189,14 @@ def point_ply(
     kind: str = "scan",
     comments: Sequence[str] = (),
 ) -> bytes:
-    """Return the content of a PLY file of points (n, 3), their normals (n, 3) if any, and other properties (n,).
+    """Return the content of a PLY file of points (n, 3), their normals (n, 3) if any, and others, (n,) or (n, c).
 
-    Points and normals are written as doubles, other properties as the numbers that they are. It is marked as `kind`.
+    Points and normals are written as doubles, others as the attributes of meshes. It is marked as `kind`.
     """
     columns: dict[str, NDArray[Any]] = dict(zip("xyz", points.T, strict=True))
     if normals is not None:
         columns |= zip(("nx", "ny", "nz"), normals.T, strict=True)
-    columns |= others
+    columns |= columns_of(others, len(points))
     table = np.empty(len(points), [(name, column.dtype.newbyteorder("<")) for name, column in columns.items()])
     for name, column in columns.items():
         table[name] = column

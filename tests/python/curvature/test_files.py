@@ -14,6 +14,7 @@ from hdpea.curvature import writing
 from hdpea.curvature.writing import CURVATURE_FORMATS, arrays_of, columns_of, write_curvature
 from hdpea.errors import UsageError
 from hdpea.reading import read_points
+from hdpea.runtime.marks import is_marked
 
 Failed = Callable[..., str]
 
@@ -41,6 +42,8 @@ def test_columns_read_back_exactly(tensors: CurvatureTensors, name: str, tmp_pat
     np.testing.assert_array_equal(cloud.attributes["direction1_z"], tensors.direction1[:, 2])
     np.testing.assert_array_equal(cloud.attributes["metric_xz"], tensors.metric[:, 0, 2])
     np.testing.assert_array_equal(cloud.attributes["determined"], tensors.determined)
+    np.testing.assert_array_equal(cloud.attributes["point_index"], np.arange(1_000))
+    assert is_marked(tmp_path / name, "curvature")
 
 
 def test_arrays_read_back_exactly(tensors: CurvatureTensors, tmp_path: Path) -> None:
@@ -52,11 +55,17 @@ def test_arrays_read_back_exactly(tensors: CurvatureTensors, tmp_path: Path) -> 
             np.testing.assert_array_equal(file[name], array)
 
 
+def test_a_table_of_others_is_not_taken_for_its_own(tmp_path: Path) -> None:
+    (tmp_path / "normals.csv").write_text("x,y,z,nx,ny,nz\n0,0,0,0,0,1\n")
+    assert not is_marked(tmp_path / "normals.csv", "curvature")
+
+
 @pytest.mark.slow
 def test_vtp_holds_every_array(tensors: CurvatureTensors, tmp_path: Path) -> None:
     import pyvista
 
     write_curvature(tmp_path / "out.vtp", tensors)
+    assert is_marked(tmp_path / "out.vtp", "curvature")
     cloud = pyvista.read(tmp_path / "out.vtp")
     np.testing.assert_array_equal(cloud.points, tensors.points)
     for name, array in arrays_of(tensors).items():

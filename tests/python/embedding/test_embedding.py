@@ -158,3 +158,13 @@ def test_arrays_of_another_shape_are_refused(points: clouds.Array, normals: clou
 def test_progress_can_cancel() -> None:
     with pytest.raises(Interrupted):
         embed_points(clouds.sphere(1000)[0], progress=lambda phase, fraction: phase != "embedding" or fraction < 0.5)
+
+
+def test_each_row_says_which_of_the_given_points_it_is() -> None:
+    given = np.vstack([[np.nan, 0, 0], clouds.torus(800)[0], [9, 9, 9]])
+    shuffled = np.random.default_rng(0).permutation(len(given))
+    as_given, other = embed_points(given), embed_points(given[shuffled])
+    np.testing.assert_array_equal(as_given.points, given[as_given.point_index])
+    np.testing.assert_array_equal(other.points, given[shuffled][other.point_index])
+    assert set(shuffled[other.point_index]) == set(as_given.point_index) <= set(range(1, 801))
+    assert (np.diff(other.point_index) > 0).all()

@@ -33,16 +33,18 @@ CRS = 'PROJCS["somewhere"]'
 COLOR_NAMES = ("red", "green", "blue")
 
 
-def las(compressed: bool, withheld: int = 0) -> bytes:
+def las(compressed: bool, withheld: int = 0, filled: bool = True) -> bytes:
+    """The points with all that the format has for them, or only where they are."""
     header = laspy.LasHeader(point_format=7, version="1.4")
     header.scales, header.offsets = np.full(3, STEP), FAR
     header.vlrs.append(WktCoordinateSystemVlr(CRS))
     header.add_extra_dim(laspy.ExtraBytesParams("roughness", "f4"))
     made = laspy.LasData(header)
     made.x, made.y, made.z = POINTS.T
-    made.intensity, made.classification, made.return_number, made.gps_time = INTENSITY, CLASSES, RETURNS, TIMES
-    made.red, made.green, made.blue = COLORS.T
-    made["roughness"] = INTENSITY / np.float32(4)
+    if filled:
+        made.intensity, made.classification, made.return_number, made.gps_time = INTENSITY, CLASSES, RETURNS, TIMES
+        made.red, made.green, made.blue = COLORS.T
+        made["roughness"] = INTENSITY / np.float32(4)
     made.withheld = np.arange(COUNT) < withheld
     stream = io.BytesIO()
     made.write(stream, do_compress=compressed)

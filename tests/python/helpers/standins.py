@@ -55,7 +55,7 @@ def embed_points(cloud: PointCloud, options: Options, progress: ProgressCallback
     """Return the points, padded with zeros."""
     tell(progress, "embedding", 0.0)
     points = cloud.points
-    return Embedding(points, np.zeros_like(points), np.pad(points, ((0, 0), (0, 5))))
+    return Embedding(points, np.zeros_like(points), np.pad(points, ((0, 0), (0, 5))), np.arange(len(points)))
 
 
 FAILING_SEED, SLEEPING_SEED = 13, 14

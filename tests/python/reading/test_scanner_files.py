@@ -45,19 +45,29 @@ def test_points_and_attributes_come_back(name: str, tmp_path: Path) -> None:
     assert (sensors is not None) == (name in WITH_SENSOR)
     assert sensors is None or (sensors == SENSOR).all()
     assert Path(name.removesuffix(".gz")).suffix in CLOUD_FORMATS
+    # The pixels of a PTX without a point count: each of its two scans ends with three.
+    places = np.arange(60) + np.repeat([0, 3], 30) if name == "scans.ptx" else np.arange(60)
+    np.testing.assert_array_equal(cloud.point_index, places)
 
 
 @pytest.mark.parametrize("compressed", [False, True])
 def test_las_keeps_its_dimensions_its_frame_and_what_is_not_withheld(compressed: bool) -> None:
     cloud = parse_points(scanner_files.las(compressed, withheld=7))
     np.testing.assert_array_equal(cloud.points, POINTS[7:])
+    np.testing.assert_array_equal(cloud.point_index, np.arange(7, len(POINTS)))
     assert cloud.crs == scanner_files.CRS
     assert cloud.notes == ("Left out points that are withheld: 7.",)
     expected = {"classification": CLASSES, "return_number": RETURNS, "gps_time": TIMES, "roughness": INTENSITY / 4}
     for name, values in expected.items():
         np.testing.assert_array_equal(cloud.attributes[name], values[7:])
-    # What nobody filled in is not there.
-    assert set(cloud.attributes) == {*expected, "intensity", *COLOR_NAMES}
+    assert cloud.attributes["red"].any()
+
+
+def test_files_of_a_delivery_have_the_same_attributes_but_for_colours_that_nobody_filled_in() -> None:
+    filled, empty = (parse_points(scanner_files.las(compressed=False, filled=each)) for each in (True, False))
+    assert set(filled.attributes) - set(empty.attributes) == set(COLOR_NAMES)
+    assert not empty.attributes["classification"].any()
+    assert set(merged([filled, empty]).attributes) == set(empty.attributes)
 
 
 def test_laz_and_ply_of_the_same_numbers_are_the_same_cloud(tmp_path: Path) -> None:

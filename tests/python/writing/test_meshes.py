@@ -131,11 +131,14 @@ def test_an_empty_mesh_is_a_legal_file(tmp_path: Path) -> None:
 @pytest.mark.parametrize("extension", [".npz", ".ply"])
 def test_embedded_points_come_back(extension: str, tmp_path: Path) -> None:
     points, embedding = 1e7 + sphere_points(9), np.random.default_rng(1).normal(size=(9, 8))
-    write_points(tmp_path / f"points{extension}", points, sphere_points(9), embedding)
+    places = np.arange(9)[::-1] + 5
+    write_points(tmp_path / f"points{extension}", points, sphere_points(9), embedding, places)
     cloud = read_points(tmp_path / f"points{extension}")
     np.testing.assert_array_equal(cloud.points, points)
     np.testing.assert_allclose(cloud.normals, sphere_points(9), atol=1e-15)
-    columns = cloud.attributes.get("coordinates", np.stack(list(cloud.attributes.values()), axis=-1))
+    attributes = dict(cloud.attributes)
+    np.testing.assert_array_equal(attributes.pop("point_index"), places)
+    columns = attributes.get("coordinates", np.stack(list(attributes.values()), axis=-1))
     np.testing.assert_array_equal(columns, embedding)
 
 
