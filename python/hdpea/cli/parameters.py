@@ -61,6 +61,8 @@ class PathType(click.Path):
 
     def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
         """Return the path."""
+        if not str(value):
+            self.fail("a name is missing; in a script, see that its variable is set.", param, ctx)
         path = super().convert(value, param, ctx)
         try:
             Path(value).exists()

@@ -78,11 +78,13 @@ def decoded(data: bytes) -> Sample:
     UnreadableInput
         If it is damaged, not a sample, or of a newer schema.
     """
+    hint = "It may have been cut off while being copied."
+    if not data.startswith(b"PK"):  # or NumPy takes it for a pickle
+        raise UnreadableInput("it is not an NPZ file, or damaged.", hint)
     try:
         archive = np.load(io.BytesIO(data), allow_pickle=False)
         arrays = {name: archive[name] for name in archive.files} if isinstance(archive, NpzFile) else {}
     except DAMAGE as error:
-        hint = "It may have been cut off while being copied."
         raise UnreadableInput(f"it is not an NPZ file, or damaged ({error}).", hint) from error
     schema = arrays.get("schema")
     if schema is None or schema.shape != () or schema.dtype.kind != "i":

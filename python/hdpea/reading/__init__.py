@@ -93,7 +93,7 @@ def read_bytes(path: Path) -> bytes:
 
 def _nearest_name(path: Path) -> Path | None:
     try:
-        names = [each.name for each in path.parent.iterdir()]
+        names = [each.name for each in path.parent.iterdir() if each.exists()]  # not links that lead nowhere
     except OSError:
         return None
     return next((path.parent / near for near in get_close_matches(path.name, names, 1, cutoff=0.75)), None)

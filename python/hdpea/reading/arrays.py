@@ -6,6 +6,7 @@ from __future__ import annotations
 import io
 import math
 import zipfile
+from dataclasses import replace
 from typing import IO, Any
 
 import numpy as np
@@ -75,8 +76,13 @@ def parse_npz(data: bytes) -> PointCloud:
     normals = next((arrays.pop(name) for name in _NORMAL_KEYS if name in arrays), None)
     if normals is not None:
         normals = _as_rows(normals, "normals")[:, :3]
-    return PointCloud(
-        cloud.points, cloud.normals if normals is None else normals, {**cloud.attributes, **arrays}, cloud.format
+    unmatched = [name for name in _NORMAL_KEYS if name in shapes and shapes[name][0][:1] != shape[:1]]
+    notes = tuple(f"Left out {name}: they are {shapes[name][0][:1]}, the points {shape[:1]}." for name in unmatched)
+    return replace(
+        cloud,
+        normals=cloud.normals if normals is None else normals,
+        attributes={**cloud.attributes, **arrays},
+        notes=notes,
     )
 
 

@@ -17,6 +17,9 @@ from hdpea.reading.objects import Parts, PointsLike, as_array, parts_of
 
 SENSOR_NAMES = ("sensor_x", "sensor_y", "sensor_z")
 
+FARTHEST = 1e150
+"""Largest coordinate of which the core can square differences."""
+
 _PROJECT = "Project them to lengths: gdaltransform -s_srs EPSG:4326 -t_srs EPSG:32632 < in.txt > out.txt, in your zone."
 
 MESH_NOTE = "The file is a mesh; its vertices are taken as points, its faces are not used."
@@ -213,7 +216,7 @@ def cleaned(cloud: PointCloud) -> PointCloud:
     Raises
     ------
     UnreadableInput
-        If no point is left.
+        If no point is left, or one is farther away than can be computed with.
     """
     finite = np.flatnonzero(require_points(cloud))
     kept = finite[first_occurrences(cloud.points[finite])]
@@ -239,7 +242,7 @@ def require_points(cloud: PointCloud) -> NDArray[np.bool_]:
     Raises
     ------
     UnreadableInput
-        If none is, or there are none.
+        If none is, there are none, or one is farther away than can be computed with.
     """
     if len(cloud.points) == 0:
         raise UnreadableInput("there are no points in it.", "Check that the export of the points succeeded.")
@@ -248,6 +251,10 @@ def require_points(cloud: PointCloud) -> NDArray[np.bool_]:
         raise UnreadableInput(
             f"none of its {len(cloud.points)} points is finite.", "NaN and infinite points are dropped."
         )
+    farthest = float(abs(cloud.points[finite]).max())
+    if farthest > FARTHEST:
+        told = f"its coordinates reach {farthest:.3g}, where {FARTHEST:.0e} is the most that can be computed with."
+        raise UnreadableInput(told, "Give them in a larger unit, and drop numbers that stand for nothing.")
     return finite
 
 

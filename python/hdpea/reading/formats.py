@@ -153,5 +153,7 @@ def _parsed(known: Format, data: bytes) -> PointCloud:
     except (HdpeaError, MemoryError):
         raise
     except expected as error:
+        # Some of them tell a story.
+        reason = next(iter(str(error).strip().splitlines()), type(error).__name__)
         hint = "It may have been cut off while being copied."
-        raise UnreadableInput(f"it is damaged {known.name} ({error}).", hint) from error
+        raise UnreadableInput(f"it is damaged {known.name} ({reason}).", hint) from error

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from hdpea.errors import UnreadableInput
 from hdpea.reading.cloud import PointCloud, from_columns
 
 _PADDING = "#$%&~~"
@@ -21,11 +22,16 @@ def parse_pcd(data: bytes) -> PointCloud:
     Raises
     ------
     UnreadableInput
-        If it has no x, y and z.
+        If it has no x, y and z, or ends early.
     """
     from pypcd4.pypcd4 import PointCloud as Pcd
 
     cloud = Pcd.from_fileobj(io.BytesIO(data))  # type: ignore[arg-type] # any stream will do
+    if len(cloud.pc_data) < cloud.metadata.points:
+        raise UnreadableInput(
+            f"it ends after {len(cloud.pc_data)} of its {cloud.metadata.points} points.",
+            "It may have been cut off while being copied.",
+        )
     columns: dict[str, NDArray[Any]] = {
         name: np.ascontiguousarray(cloud.pc_data[name]) for name in cloud.fields if not name.startswith(_PADDING)
     }

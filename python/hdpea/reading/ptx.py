@@ -57,8 +57,10 @@ _Scan = tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64], NDA
 def _scans(lines: Sequence[str]) -> Iterator[_Scan]:
     start = 0
     while start < len(lines):
-        count = int(lines[start]) * int(lines[start + 1])
         body = start + HEADER
+        if len(lines) < body:
+            raise UnreadableInput("it ends in the header of a scan.", "It may have been cut off while being copied.")
+        count = int(lines[start]) * int(lines[start + 1])
         sensor = parse_table(lines[start + 2 : start + 3], start + 3, 3)[0]
         transform = parse_table(lines[start + 6 : body], start + 7, 4)
         if len(lines) < body + count:

@@ -170,8 +170,8 @@ def separator_of(line: str) -> str:
 def fields_of(line: str, separator: str) -> list[str]:
     """Return the fields of a line, without quotes; between separators other than blanks they may be empty."""
     fields = line.strip().split(separator) if separator else (line.split() or [""])
-    if separator:
-        fields = [each.replace(",", ".") if separator != "," else each for each in fields]
+    if separator not in {"", ","} or (not separator and comma_is_decimal(line)):
+        fields = [each.replace(",", ".") for each in fields]
     return [each.strip().strip("\"'") for each in fields]
 
 

@@ -36,6 +36,8 @@ def check_output(path: Path, extensions: Collection[str]) -> None:
         If the extension is not one of them, the name is no file's name, the folder is missing or cannot be
         written, or a folder or device is in the way.
     """
+    if not path.name:
+        raise UsageError("An output has no name.", "Give one; in a script, see that the variable is set.")
     if path.suffix.lower() not in extensions:
         listed = ", ".join(extensions)
         near = get_close_matches(path.suffix.lower(), extensions, n=1) or list(extensions)
@@ -48,6 +50,8 @@ def check_output(path: Path, extensions: Collection[str]) -> None:
     # Only a link can lead to another folder.
     folder = _target(path).parent if path.is_symlink() else path.parent
     if not folder.is_dir():
+        if folder.exists():
+            raise UsageError(f"Cannot write {path}: {folder} is no folder.", "Choose another name.")
         raise UsageError(f"Cannot write {path}: there is no folder {folder}.", f"mkdir -p {folder}")
     if earlier is not None and not stat.S_ISREG(earlier.st_mode):
         raise UsageError(f"Cannot write {path}: it exists and is not a file.", "Choose another name.")

@@ -106,8 +106,8 @@ def plan_tiles(cells: Cells, frame: UnitFrame, options: Options, most_points: in
             )
         if cells.in_box(low, high).sum() < 2:
             raise UsageError(
-                f"{core:,} points lie in one place, as seen from the farthest ones.",
-                "Leave out points that are far away.",
+                f"{core:,} points lie in one place, as seen from the farthest ones; a tile holds {most_points:,}.",
+                "Give more `memory`, or leave out points that are far away.",
             )
         axis, middle = cells.middle_of(low, high)
         left, right = high.copy(), low.copy()

@@ -86,11 +86,17 @@ def test_wrong_usage_is_found_at_once(
     assert not (tmp_path / "mesh.obj").exists()
 
 
+@pytest.mark.parametrize("command", ["reconstruct", "embed", "curvature"])
+def test_an_output_has_a_name(command: str, scan: str, failed: Callable[..., str]) -> None:
+    assert "a name is missing" in failed(2, command, scan, "")
+
+
 @pytest.mark.parametrize(
     ("output", "reason"),
     [
         ("mesh.docx", ".obj"),
         ("nowhere/mesh.obj", "no folder"),
+        ("scan.xyz/mesh.obj", "scan.xyz is no folder"),
         ("/proc/mesh.obj", "in /proc"),  # where not even root may write
     ],
 )

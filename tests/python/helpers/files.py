@@ -57,6 +57,7 @@ WITH_NORMALS = {
     "shuffled.csv": ('"NX";"NY";"NZ";"X";"Y";"Z"\n' + lines(np.hstack([NORMALS, POINTS]), ";")).encode(),
     "tabs.txt": ("\ufeff# a scan\n\n" + lines(BOTH, "\t") + "// the end\n").encode(),
     "decimal_commas.csv": lines(BOTH, ";").replace(".", ",").encode(),
+    "decimal_commas.xyz": lines(BOTH).replace(".", ",").encode(),
     "cloudcompare.asc": ("//X Y Z Nx Ny Nz\n" + lines(BOTH)).encode(),
     "counted.pts": ("20\n" + lines(BOTH)).encode(),
     "oni.pwn": lines(BOTH).encode(),

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 from helpers.clouds import sphere_points
-from helpers.files import WITH_NORMALS, ply, saved
+from helpers.files import WITH_NORMALS, npy, ply, saved
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -38,6 +38,7 @@ BAD_CONTENT = {
     "names.npz": (saved(cloud=sphere_points(4)), "no array named points"),
     "shape.npz": (saved(points=sphere_points(1000).T), "not numbers of shape"),
     "scan.las": (b"LASF" + bytes(100), "LAS"),
+    "far.npy": (npy(1e200 * sphere_points(9)), "coordinates reach .*e\\+199"),
     "photo.png": (b"\x89PNG\r\n\x1a\n\0\0\0\rIHDR", "format is unknown"),
 }
 
@@ -58,6 +59,13 @@ def test_missing_file_names_its_neighbour(tmp_path: Path) -> None:
     assert "scan.ply" in caught.value.hint
 
 
+def test_a_link_that_leads_nowhere_is_not_offered_in_its_own_place(tmp_path: Path) -> None:
+    (tmp_path / "scan.ply").symlink_to("gone.ply")
+    with pytest.raises(UnreadableInput, match="no file") as caught:
+        read_points(tmp_path / "scan.ply")
+    assert "Did you mean" not in caught.value.hint
+
+
 def test_missing_folder() -> None:
     with pytest.raises(UnreadableInput, match="no file"):
         read_points("nowhere/scan.ply")
@@ -75,6 +83,12 @@ def test_file_without_permission(tmp_path: Path, monkeypatch: pytest.MonkeyPatch
     monkeypatch.setattr(Path, "read_bytes", refuse)  # chmod does not stop root
     with pytest.raises(UnreadableInput, match="Permission denied"):
         read_points(tmp_path / "scan.ply")
+
+
+def test_normals_of_other_points_are_left_out_and_told() -> None:
+    cloud = parse_points(saved(points=sphere_points(30), normals=sphere_points(5)))
+    assert cloud.normals is None
+    assert "Left out normals" in cloud.notes[0]
 
 
 @given(st.sampled_from(sorted(WITH_NORMALS)), st.data())

@@ -6,6 +6,7 @@ from __future__ import annotations
 import gzip
 import io
 import sys
+from collections.abc import Callable
 from pathlib import Path
 
 import laspy
@@ -95,6 +96,21 @@ def test_a_file_cut_off_says_so(name: str) -> None:
     with pytest.raises(UnreadableInput) as caught:
         parse_points(content[: 2 * len(content) // 3 - 3])
     assert caught.value.hint
+
+
+@pytest.mark.parametrize("name", [name for name in FILES if name != "table.csv"])
+def test_what_is_left_of_half_a_file_is_told_in_one_line(name: str) -> None:
+    content = FILES[name]()
+    for length in (100, len(content) // 2):
+        with pytest.raises(UnreadableInput) as caught:
+            parse_points(content[:length])
+        assert len(caught.value.message.splitlines()) == 1
+
+
+@pytest.mark.parametrize("name", ["scan.las", "scan.laz"])
+def test_a_record_whose_name_is_no_text_is_damage(name: str, tmp_path: Path, failed: Callable[..., str]) -> None:
+    (tmp_path / name).write_bytes(FILES[name]().replace(b"LASF_Projection", b"LASF_\x9brojection"))
+    assert "damaged" in failed(3, "info", tmp_path / name)
 
 
 def test_las_without_points_is_refused() -> None:
