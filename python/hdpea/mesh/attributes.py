@@ -135,6 +135,8 @@ class _Feet:
     def _majority(self, values: NDArray[Any]) -> NDArray[Any]:
         known = np.isfinite(values)
         labels, label = np.unique(values, return_inverse=True)
+        if len(labels) == 1:  # as many dimensions of LAS that nobody filled in have
+            return np.full(len(self.vertices), labels[0])
         votes = (self.corners * len(labels) + label[:, None])[known].ravel()
         choices, vote = np.unique(votes, return_inverse=True)
         weights = np.bincount(vote, self.weights[known].ravel(), len(choices))
