@@ -14,6 +14,7 @@ from hdpea.dataset.sample import Sample
 from hdpea.dataset.sample_file import SCHEMA, decoded, encoded, read_sample, write_sample
 from hdpea.errors import UnreadableInput, UsageError
 from hdpea.reading import read_points
+from hdpea.runtime.marks import is_marked
 
 FROZEN = Path(__file__).parent / "data" / "sample_schema_1.npz"
 
@@ -41,6 +42,7 @@ def saved(**arrays: Any) -> bytes:
 def test_a_sample_comes_back_whole(noise: float, scanned: bool, tmp_path: Path) -> None:
     sample = sphere_sample(noise=noise, scanned=scanned)
     write_sample(tmp_path / "sample.npz", sample)
+    assert is_marked(tmp_path / "sample.npz", "sample")
     assert_same(read_sample(tmp_path / "sample.npz"), sample)
 
 
