@@ -202,7 +202,7 @@ def _write_mesh(job: Job, result: Reconstruction) -> None:
 
 def remarks(job: Job, report: Report) -> Iterator[str]:
     """Yield what else there is to say to whoever waits for a mesh: a line each."""
-    others = [str(path) for path, kind in job.outputs() if kind != "mesh" and path.exists()]
+    others = [str(path) for path, _ in job.outputs() if path != job.destination.output and path.exists()]
     if others:
         yield f"Also written: {', '.join(others)}"
     if job.destination.extension == ".stl" and not report.mesh.closed:

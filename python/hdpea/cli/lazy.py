@@ -5,8 +5,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from importlib import import_module
+from pathlib import Path
 
 import click
+
+from hdpea.errors import UsageError
 
 
 def lazy_group(package: str, commands: Sequence[str]) -> type[click.Group]:
@@ -30,6 +33,9 @@ def lazy_group(package: str, commands: Sequence[str]) -> type[click.Group]:
             try:
                 return super().resolve_command(ctx, args)
             except click.exceptions.NoSuchCommand as error:
+                if Path(error.command_name).suffix:
+                    reason = f"{error.command_name} is a file, where a command is expected: {', '.join(commands)}."
+                    raise UsageError(reason, f"{ctx.command_path} {commands[0]} {' '.join(args)}") from error
                 # The nearest of them is suggested, of which click knows only those that it has loaded.
                 raise click.exceptions.NoSuchCommand(error.command_name, possibilities=commands, ctx=ctx) from error
 

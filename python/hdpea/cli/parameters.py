@@ -53,6 +53,21 @@ class ShareType(click.ParamType[float]):
             self.fail(f"{text!r} is not a number such as 0.003 or 0.3%.", param, ctx)
 
 
+class CountType(click.ParamType[int]):
+    """A whole number, without separators: whether ``5,000`` is five thousand depends on where one lives."""
+
+    name = "integer"
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> int:
+        """Return the number; a usage error if it is none."""
+        try:
+            return int(value)
+        except ValueError:
+            digits = re.sub(r"[ ,.']", "", str(value).strip())
+            example = digits if re.fullmatch(r"\d+", digits) else "5000"
+            self.fail(f"{value!r} is not a whole number such as {example}.", param, ctx)
+
+
 class PathType(click.Path):
     """The name of a file or folder, be there one or not; what no file can be called is a usage error."""
 
@@ -110,6 +125,14 @@ class GroupedCommand(click.Command):
 
     The library's errors name options as Python does; where they come from a command, they name its flags.
     """
+
+    def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
+        """Read the arguments; errors say of which command they are."""
+        try:
+            return super().parse_args(ctx, args)
+        except click.UsageError as error:
+            error.ctx = error.ctx or ctx
+            raise
 
     def invoke(self, ctx: click.Context) -> Any:
         """Run the command."""
@@ -196,6 +219,7 @@ def _flag(setting: Setting, flags: Mapping[str, str], group: str) -> Callable[[D
         Position: ParsedType(Position),
         Classes: ParsedType(Classes),
         float: ShareType(),
+        int: CountType(),
     }
     return click.option(
         f"{flag}/--no-{flag[2:]}" if setting.kind is bool else flag,

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import webbrowser
 from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from tempfile import gettempdir
@@ -42,7 +43,8 @@ def command(*, sources: tuple[Path, ...], page: Path | None, up: str | None, for
 
     FILE is a mesh (PLY, OBJ, STL, OFF, GLB, NPZ) or a point cloud, as for reconstruct. Several are
     shown in the same coordinates, the second beside the first; meshes are coloured by their distance
-    to the first cloud among them. The page is one HTML file that needs nothing else.
+    to the first cloud among them. The page is one HTML file that needs nothing else; without --page it
+    lies in the folder for temporary files, and its name is told.
     """
     from hdpea.pages.colorings import COLOR, DISTANCE
     from hdpea.pages.page import PAGE_FORMATS, write_page
@@ -56,8 +58,8 @@ def command(*, sources: tuple[Path, ...], page: Path | None, up: str | None, for
     figures = list(_figures(shapes))
     write_page(written, title, shapes, figures, coloring=DISTANCE if figures else COLOR, beside=beside, up=up)
     click.echo(f"{written}: {written.stat().st_size / 1e6:.1f} MB; it opens in any browser", err=True)
-    if page is None:
-        click.launch(str(written))
+    if page is None and not webbrowser.open(written.resolve().as_uri()):
+        click.echo("No browser was found here: open it where there is one.", err=True)
 
 
 def _figures(shapes: Sequence[Shape]) -> Iterator[tuple[str, str]]:
@@ -71,7 +73,9 @@ def _figures(shapes: Sequence[Shape]) -> Iterator[tuple[str, str]]:
         for each in shape.colorings if isinstance(shape, PointShape) else ():
             if each.name == DISTANCE:
                 yield f"{shape.name} to mesh, rms", f"{np.sqrt(np.mean(each.values**2)):.3g}"
+                yield "95 % within", f"{np.percentile(each.values, 95):.3g}"
                 yield "at most", f"{each.values.max():.3g}"
+                yield "size of the cloud", " x ".join(f"{side:.3g}" for side in np.ptp(shape.points, axis=0))
 
 
 def _shapes(sources: tuple[Path, ...]) -> Iterator[Shape]:

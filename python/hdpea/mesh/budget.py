@@ -34,8 +34,16 @@ class Budget:
         """
         if self.asked is None:
             return 0.0
-        more = len(mesh.faces if self.counts_faces else mesh.vertices_in_unit) - self.asked
+        more = self._made(mesh) - self.asked
         return more / self.asked if abs(more) > max(TOLERANCE * self.asked, 1) else 0.0
+
+    def comparison(self, mesh: Mesh) -> str:
+        """Say in a sentence what was asked for, and what the mesh has."""
+        what = "faces" if self.counts_faces else "vertices"
+        return f"{self.asked:,} {what} were asked for, and the mesh has {self._made(mesh):,}."
+
+    def _made(self, mesh: Mesh) -> int:
+        return len(mesh.faces if self.counts_faces else mesh.vertices_in_unit)
 
 
 def particles_wanted(

@@ -104,7 +104,9 @@ def _distances_at_vertices(vertices: Rows, faces: NDArray[np.int64], points: Row
     counts = np.bincount(nearest.face, minlength=len(faces)).astype(np.float64)
     means = np.divide(squares, counts, out=np.zeros(len(faces)), where=counts > 0)
     distances = largest * np.sqrt(vertex_means(means, faces, counts, len(vertices)))
-    note = "Distance of the points on a vertex's faces, root mean square, in units of the file; grey: there are none."
+    note = (
+        "Distance of the points on a vertex's faces, root mean square, in units of the file; dark grey: there are none."
+    )
     return Coloring(DISTANCE, distances, 0.0, _percentile(distances, SATURATED), note)
 
 

@@ -63,6 +63,13 @@ function colorsOf(coloring) {
   return colors;
 }
 
+/** Colours (3 n) of vertices at the corners of the faces, one after the other. */
+function ofCorners(colors, geometry) {
+  const corners = geometry.index.array, spread = new Uint8Array(3 * corners.length);
+  corners.forEach((vertex, i) => spread.set(colors.subarray(3 * vertex, 3 * vertex + 3), 3 * i));
+  return spread;
+}
+
 /** A matrix for each ellipsoid, from its centre and half axes, whose third is the normal. */
 function matricesOf(shape, scaled) {
   const centres = new Float32Array(bytesOf(shape.centres).buffer), axes = new Float32Array(bytesOf(shape.axes).buffer);

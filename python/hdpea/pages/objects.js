@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // From a shape of the page, its colouring and whether edges are wanted, to what three.js draws.
 
-const geometries = new Map(), edges = new Map();
+const geometries = new Map(), smoothed = new Map(), edges = new Map();
+
+/** Of more faces each is too small to be seen, and the search for creases takes seconds. */
+const MOST_SMOOTHED = 200000;
 
 function cached(cache, shape, make) {
   if (!cache.has(shape)) cache.set(shape, make(shape));
@@ -47,13 +50,18 @@ function dotsOf(shape) {
 function objectsOf(shape, coloring, withEdges) {
   if (shape.kind === "ellipsoids") return ellipsoidsOf(shape, coloring);
   const geometry = cached(geometries, shape, geometryOf);
-  if (coloring) geometry.setAttribute("color", new THREE.BufferAttribute(colorsOf(coloring), 3, true));
+  const colors = coloring && colorsOf(coloring);
+  if (colors) geometry.setAttribute("color", new THREE.BufferAttribute(colors, 3, true));
   if (shape.kind === "points") return pointsOf(geometry, coloring);
+  // Edges show the faces, which are flat then; without them the surface is smooth between its creases.
+  const smooth = !withEdges && geometry.index.count <= 3 * MOST_SMOOTHED;
+  const shaded = smooth ? cached(smoothed, shape, () => THREE.toCreasedNormals(geometry, page.crease)) : geometry;
+  if (smooth && colors) shaded.setAttribute("color", new THREE.BufferAttribute(ofCorners(colors, geometry), 3, true));
   const looks = coloring ? { vertexColors: true } : { color: page.colors.front };
   // Edges lie on the faces: these step back a little.
-  const solid = { flatShading: true, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1 };
+  const solid = { flatShading: !smooth, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1 };
   const sides = [{ ...looks, side: THREE.FrontSide }, { color: page.colors.back, side: THREE.BackSide }];
-  const objects = sides.map((side) => new THREE.Mesh(geometry, new THREE.MeshLambertMaterial({ ...solid, ...side })));
+  const objects = sides.map((side) => new THREE.Mesh(shaded, new THREE.MeshLambertMaterial({ ...solid, ...side })));
   if (withEdges) {
     const lines = cached(edges, shape, () => edgesOf(geometry));
     const material = new THREE.LineBasicMaterial({ color: page.colors.edges, transparent: true, opacity: 0.6 });

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import json
+import math
 from collections.abc import Sequence
 from html import escape
 from pathlib import Path
@@ -11,8 +12,9 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from hdpea.geometry.smooth_fans import CREASE
 from hdpea.pages.encoding import Box, encoded_shape, with_common_ranges
-from hdpea.pages.shapes import EllipsoidShape, MeshShape, PointShape, Shape
+from hdpea.pages.shapes import EllipsoidShape, MeshShape, OwnColors, PointShape, Shape
 from hdpea.pictures.camera import choose_view, choose_view_of_points
 from hdpea.pictures.colors import RAMP, UNDETERMINED
 from hdpea.pictures.picture import BACK, DOTS, EDGES, FRONT
@@ -54,7 +56,7 @@ def write_page(
     figures
         What is said about them.
     coloring
-        Name of the colouring that is shown first; by default none.
+        Name of the colouring that is shown first; by default none. With the data's own colours, edges are hidden first.
     beside
         Index of the shape that is shown beside the first; by default none.
     sight
@@ -79,6 +81,8 @@ def write_page(
         "up": (np.sign(view[1, axis]) * np.eye(3)[axis]).tolist(),
         "eye": view[2].tolist(),
         "coloring": coloring,
+        "edges": not _shows_own_colors(shapes[0], coloring),
+        "crease": math.radians(CREASE),
         "beside": "" if beside is None else str(beside),
         "ramp": [_bytes(each) for each in RAMP],
         "unknown": _bytes(UNDETERMINED),
@@ -103,6 +107,10 @@ def _filled(values: dict[str, str]) -> str:
     first, *rest = (HERE / "page.html").read_text(encoding="utf-8").split("{{")
     named = (each.split("}}", 1) for each in rest)
     return first + "".join(values[name] + text for name, text in named)
+
+
+def _shows_own_colors(shape: Shape, coloring: str) -> bool:
+    return any(each.name == coloring and isinstance(each, OwnColors) for each in shape.colorings)
 
 
 def _view(shape: Shape, sight: NDArray[np.float64] | None, up: str | None) -> NDArray[np.float64]:

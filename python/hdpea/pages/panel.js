@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The panel: what is shown, beside what, in which colours. A link may say it, too: page.html#coloring=curvature&edges=0
+// The panel: what is shown, beside what, in which colours. A link may say it, too: page.html#coloring=curvature&edges=0&panel=0
 
 const asked = new URLSearchParams(location.hash.slice(1));
 const [first, second, coloring, edgesShown, pointsShown] = ["first", "second", "coloring", "edges", "points"].map((id) =>
@@ -60,10 +60,10 @@ fill(second, [["", "nothing"], ...all], asked.get("second") ?? page.beside);
 for (const each of [first, second]) each.parentElement.hidden = page.shapes.length < 2;
 listColorings();
 coloring.value = asked.get("coloring") ?? page.coloring;
-if (asked.has("edges")) edgesShown.checked = asked.get("edges") === "1";
+edgesShown.checked = asked.has("edges") ? asked.get("edges") === "1" : page.edges;
 if (asked.has("points")) pointsShown.checked = asked.get("points") === "1";
 for (const each of [first, second, coloring, edgesShown, pointsShown]) each.addEventListener("change", update);
 document.getElementById("legend").style.setProperty("--ramp", page.ramp.map((each) => `rgb(${each})`).join(","));
-document.querySelector("details").open = window.innerWidth > 700;
+document.querySelector("details").open = window.innerWidth > 700 && asked.get("panel") !== "0";
 reset();
 update();

@@ -5,4 +5,5 @@ export {
   DoubleSide, FrontSide, Group, InstancedMesh, LinearSRGBColorSpace, LineBasicMaterial, LineSegments, Matrix4, Mesh,
   MeshLambertMaterial, PerspectiveCamera, Points, Scene, ShaderMaterial, SphereGeometry, Vector3, WebGLRenderer,
 } from "three";
+export { toCreasedNormals } from "three/examples/jsm/utils/BufferGeometryUtils.js";
 export { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";

@@ -16,8 +16,8 @@ MOST_ANISOTROPIC = 4.0
 RAMP = ((0.23, 0.30, 0.75), (0.87, 0.87, 0.87), (0.71, 0.02, 0.15))
 """Red, green and blue at ratio 1, at the square root of the largest, and there."""
 
-UNDETERMINED = (0.62, 0.62, 0.62)
-"""Red, green and blue of what is not known."""
+UNDETERMINED = (0.42, 0.42, 0.42)
+"""Red, green and blue of what is not known: darker than the middle of the ramp."""
 
 
 def ratio_colors(ratio: NDArray[np.float64], most: float = MOST_ANISOTROPIC) -> Colors:

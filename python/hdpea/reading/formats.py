@@ -78,6 +78,8 @@ FORMATS = (
     ),
 )
 
+FROM_STL = "assimp export scan.stl scan.ply"
+
 FOREIGN = (
     (re.compile(rb"PK\x03\x04.{26}(?:\[Content_Types\]|xl/)", re.DOTALL), "a spreadsheet",
      "soffice --convert-to csv scan.xlsx"),
@@ -87,7 +89,7 @@ FOREIGN = (
      "gdal_translate -of XYZ dem.grd dem.xyz"),
     (re.compile(rb"II\*\0|MM\0\*"), "a TIFF, an image or heights in rows", "gdal_translate -of XYZ dem.tif dem.xyz"),
     (re.compile(rb"glTF"), "a glTF file", "assimp export scan.glb scan.ply"),
-    (re.compile(rb"solid\b"), "an STL file", "assimp export scan.stl scan.ply"),
+    (re.compile(rb"solid\b"), "an STL file", FROM_STL),
     (re.compile(rb"# vtk DataFile|<\?xml[^>]*>\s*<VTKFile|<VTKFile"), "a VTK file", "meshio convert scan.vtk scan.ply"),
     (re.compile(rb"#VRML|<\?xml[^>]*>\s*(?:<!DOCTYPE[^>]*>\s*)?<X3D"), "a VRML or X3D file",
      "meshlabserver -i scan.wrl -o scan.ply"),
@@ -117,6 +119,11 @@ DAMAGE = (
 """What the libraries that read those formats raise over nonsense."""
 
 
+def is_binary_stl(data: bytes) -> bool:
+    """Say whether data are as long as the number of triangles after the 80 bytes of an STL's header says."""
+    return len(data) > 84 and len(data) == 84 + 50 * int.from_bytes(data[80:84], "little")
+
+
 def parse_points(data: bytes, extension: str = "") -> PointCloud:
     """Read the content of a file, as ``read_points`` does, without dropping anything.
 
@@ -128,7 +135,9 @@ def parse_points(data: bytes, extension: str = "") -> PointCloud:
     if data.startswith(GZIP):
         data = unzipped(data)
     if not data or data.isspace():
-        raise UnreadableInput("it is empty.", READABLE)
+        raise UnreadableInput("it is empty.", "Save or export it again; it has no points yet.")
+    if is_binary_stl(data):
+        raise UnreadableInput("it is an STL file.", f"Convert it: {FROM_STL}")
     for prefix, what, command in FOREIGN:
         if prefix.match(data):
             raise UnreadableInput(f"it is {what}.", f"Convert it: {command}")

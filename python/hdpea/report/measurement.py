@@ -127,10 +127,11 @@ def level_facts(mesh: Mesh, surface: Surface) -> LevelFacts:
 
 def missed_targets(mesh: Mesh, facts: MeshFacts, options: MeshingOptions) -> Iterator[str]:
     """Yield a sentence for each wish that the mesh does not meet."""
-    excess = Budget.of(options).excess(mesh)
+    budget = Budget.of(options)
+    excess = budget.excess(mesh)
     # With an error, the number is the most there may be.
     if excess > 0 or (excess < 0 and options.error is None):
-        yield f"The budget was missed by {abs(excess):.1%}."
+        yield budget.comparison(mesh)
     if options.watertight and not facts.closed:
         yield f"The mesh is not watertight: {facts.boundary_loops} boundary loops are left."
     # What closes a wide gap is a guess, and may lie in what it closes.

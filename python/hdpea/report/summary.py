@@ -27,7 +27,7 @@ def summarize(report: Report, where: str, verbose: bool = False) -> str:
 def outcome(report: Report) -> Iterator[str]:
     """Yield what came out, and how good it is; a line each."""
     yield _mesh(report.mesh) + _filled(report.meshing.get("area_filled", 0))
-    yield _distances(report.distances) + _along_z(report.along_z) + _error(report.error)
+    yield _distances(report.distances) + _along_z(report.along_z) + _error(report.error, bool(report.levels))
     for number, level in enumerate(report.levels, start=1):
         yield f"level {number}: {level.vertices:,} vertices, {level.faces:,} faces, error {level.error:.3g}"
 
@@ -73,8 +73,10 @@ def _along_z(differences: HeightDifferences | None) -> str:
     return "" if differences is None else f"; along z: rms {differences.rms:.3g}, max {differences.max:.3g}"
 
 
-def _error(error: AchievedError) -> str:
-    if error.asked is None:
+def _error(error: AchievedError, compared: bool) -> str:
+    """Return the error to be compared with what was asked for, or with that of levels; without either, nothing."""
+    if error.asked is None and not compared:
         return ""
+    asked = "" if error.asked is None else f" of {error.asked:.3g} asked for"
     noise = f", after points were moved by up to {error.moved_by_denoising:.3g}" if error.moved_by_denoising else ""
-    return f"; error, both ways: {error.larger:.3g} of {error.asked:.3g} asked for{noise}"
+    return f"; error, both ways: {error.larger:.3g}{asked}{noise}"

@@ -60,7 +60,9 @@ def test_flags_take_the_place_of_options_in_a_text() -> None:
     [
         (["--vertices", "9", "--faces", "9"], "exclude"),
         (["--vertices", "3"], "at least 4"),
-        (["--vertices", "many"], "not a valid integer"),
+        (["--vertices", "many"], "not a whole number such as 5000"),
+        (["--vertices", "1,200"], "not a whole number such as 1200"),
+        (["--vertices"], "`hdpea reconstruct --help` explains"),
         (["--fill-holes", "wide"], "not a length"),
         (["--fill-holes", "-1%"], "cannot be -1"),
         (["--error", "small"], "not a length"),

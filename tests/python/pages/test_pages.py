@@ -126,6 +126,16 @@ def test_attributes_can_be_shown() -> None:
     assert shown[0].values[0].tolist() == [255, 1, 0]
 
 
+def test_edges_are_hidden_at_first_where_the_scan_has_colors(tmp_path: Path) -> None:
+    vertices, faces = meshes.icosphere()
+    colored = mesh_shape(
+        "mesh", vertices, faces, attributes=dict.fromkeys(("red", "green", "blue"), np.arange(len(vertices)))
+    )
+    for coloring, edges in (("colour", False), ("curvature", True), ("", True)):
+        write_page(tmp_path / "page.html", "sphere", [colored], coloring=coloring)
+        assert scene_of(tmp_path / "page.html")["edges"] == edges
+
+
 def test_any_mesh_and_cloud_can_be_viewed(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     vertices, faces = meshes.icosphere()
     write_mesh(tmp_path / "mesh.ply", vertices, faces)
