@@ -1,22 +1,25 @@
 #!/bin/sh
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Meshes the fused cloud of every COLMAP project below a folder; for cron.
+# Meshes the fused cloud of every COLMAP project that has none yet, or a newer cloud; for cron.
 #
-#     examples/mesh_colmap.sh projects/ [options of hdpea reconstruct]
+#     mesh_colmap.sh PROJECTS MESHES [options of hdpea reconstruct]
 #
-# Beside each dense/fused.ply: mesh.ply with its colours, and mesh.json with what was measured. What is newer than its
-# cloud is left alone. Ends with 1 if any project has no mesh.
+# Of PROJECTS/NAME/dense/fused.ply it makes MESHES/NAME-DATE.ply with its colours, and NAME-DATE.json with what was
+# measured; those of other days stay. A mesh that is not what was asked for is called NAME-DATE.bad.ply, and is tried
+# again the next time. Ends with 1 if there is any such, or any project without a mesh; with 2 if there is no project.
 set -u
-projects=$1
-shift
-failed=0
+[ $# -ge 2 ] || { echo "usage: $0 PROJECTS MESHES [options of hdpea reconstruct]" >&2; exit 2; }
+projects=$1 meshes=$2 failed=0
+shift 2
+mkdir -p "$meshes" || exit 2
 for cloud in "$projects"/*/dense/fused.ply; do
-  mesh=${cloud%fused.ply}mesh.ply
-  [ "$mesh" -nt "$cloud" ] && continue
-  hdpea reconstruct "$cloud" "$mesh" --report "${mesh%.ply}.json" --quiet "$@"
+  [ -e "$cloud" ] || { echo "There is no cloud $cloud." >&2; exit 2; }
+  name=$(basename "${cloud%/dense/fused.ply}")
+  mesh=$meshes/$name-$(date +%F)
+  [ -n "$(find "$meshes" -name "$name-????-??-??.ply" -newer "$cloud")" ] && continue
+  hdpea reconstruct "$cloud" "$mesh.bad.ply" --report "$mesh.json" --quiet "$@"
   case $? in
-    0) echo "$mesh" ;;
-    5) echo "$mesh: look at it, the report says what was missed" ;;
+    0) mv "$mesh.bad.ply" "$mesh.ply" && echo "$mesh.ply" ;;
     130 | 143) exit 1 ;;
     *) failed=1 ;;
   esac

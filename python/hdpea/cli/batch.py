@@ -11,6 +11,7 @@ from pathlib import Path
 
 from hdpea.cli.job import Ended, Job, attempt
 from hdpea.errors import CannotReconstruct, HdpeaError, QualityMissed, UnreadableInput, UsageError
+from hdpea.options.settings import as_dict
 from hdpea.runtime.outputs import unfinished_folder
 from hdpea.runtime.processes import Outcome, run_isolated
 
@@ -49,7 +50,9 @@ def _ended(job: Job, outcome: Outcome[Ended]) -> Ended:
         hint = "Reconstruct it alone to see more."
         return Ended(job.destination.sources, output, kind=HdpeaError, message=outcome.failed, hint=hint)
     hint = f"The mesh is in {output} all the same." if outcome.result.kind is QualityMissed else outcome.result.hint
-    return replace(outcome.result, output=output, hint=hint)
+    # Its share of the processors was not asked for, and is another on another machine.
+    report = outcome.result.report and outcome.result.report | {"options": as_dict(job.options)}
+    return replace(outcome.result, report=report, output=output, hint=hint)
 
 
 def worst_of(all_ended: Sequence[Ended]) -> HdpeaError | None:

@@ -21,7 +21,7 @@ Examples:
 \b
 The scores:
   CD  sum of the mean squared distances in both directions; smaller is better
-  F1  share of points within a distance, in both directions; 1 is best
+  F1  harmonic mean of the shares of points within a distance, either way; 1 is best
   NC  mean |n.n'| of nearest points, in both directions; 1 is best
   HD  largest distance in either direction; smaller is better
   G   quality of the triangles under the truth's curvature; 1 is best
@@ -37,7 +37,7 @@ Exit codes: 0 ok, 2 usage, 3 unreadable input, 4 a surface without extent.
 @click.command(cls=GroupedCommand, epilog=EPILOG, no_args_is_help=True, short_help="Measure a mesh against the truth.")
 @click.argument("result", type=PATH)
 @click.argument("truth", type=PATH)
-@click.option("--json", "as_json", is_flag=True, help="print everything as JSON, lengths unscaled")
+@click.option("--json", "as_json", is_flag=True, help="print everything as JSON; lengths in full, not in 1e-2 or 1e-5")
 @setting_options("run", owner=EvaluationOptions, heading="Sampling")
 def command(result: Path, truth: Path, as_json: bool, **values: Any) -> None:
     """Measure the mesh RESULT against the true surface TRUTH, in the same units and frame.
@@ -54,4 +54,5 @@ def command(result: Path, truth: Path, as_json: bool, **values: Any) -> None:
 
     vertices, faces = read_triangle_mesh(result)
     evaluation = evaluate(vertices, faces, read_truth(truth, filled(EvaluationOptions, values)))
-    click.echo(json.dumps(evaluation.as_dict(), indent=2) if as_json else describe(evaluation))
+    scores = {"files": {"result": str(result), "truth": str(truth)}, **evaluation.as_dict()}
+    click.echo(json.dumps(scores, indent=2) if as_json else describe(evaluation))

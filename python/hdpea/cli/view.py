@@ -70,7 +70,9 @@ def _figures(shapes: Sequence[Shape]) -> Iterator[tuple[str, str]]:
     from hdpea.pages.shapes import PointShape
 
     for shape in shapes:
-        for each in shape.colorings if isinstance(shape, PointShape) else ():
+        if not isinstance(shape, PointShape):
+            continue
+        for each in shape.colorings:
             if each.name == DISTANCE:
                 yield f"{shape.name} to mesh, rms", f"{np.sqrt(np.mean(each.values**2)):.3g}"
                 yield "95 % within", f"{np.percentile(each.values, 95):.3g}"

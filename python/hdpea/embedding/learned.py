@@ -55,9 +55,10 @@ def embed_learned(surface: Surface, vertices: int, options: EmbeddingOptions, pr
     psi = predict_psi(network, points, normals, neighbors, spacing, options.whole_points, progress)
     if len(kept) < len(surface.points_in_unit):
         psi = Interpolation.of(points, normals, surface.points_in_unit, surface.normals)(psi)
+    in_world, of_weights = spacing * surface.frame.diagonal, "what the weights were trained for"
     choices = (
-        Choice(
-            "metric_spacing", spacing * surface.frame.diagonal, "world units", f"that of {round(shown):,} particles"
-        ),
+        Choice("metric_spacing", in_world, "world units", f"that of {round(shown):,} particles"),
+        Choice("metric_scale", network.metric.scale * in_world, "world units", of_weights),
+        Choice("max_stretch", network.metric.max_stretch, "", of_weights),
     )
     return Embedded(np.hstack([surface.points_in_unit, psi]), choices, network.metric.at(spacing))

@@ -160,7 +160,7 @@ def _fill_holes(
         size = frame.length_to_unit(options.fill_holes)
     else:
         size = HOLES_FILLED * float(np.sqrt(mesh_area(vertices, extracted.faces) / resolution))
-        why = f"{HOLES_FILLED:g} spacings of the vertices that the points can show"
+        why = f"{HOLES_FILLED:g} spacings of {resolution:,} vertices"
         choices = (Choice("fill_holes", size * frame.diagonal, "world units", why),)
     filled = _core.fill_holes(vertices, extracted.faces, size)
     statistics: dict[str, int | float] = {

@@ -133,7 +133,8 @@ def test_each_cloud_has_a_mesh_and_a_line(capsys: Capture) -> None:
     assert {each.name for each in Path("new/meshes").iterdir()} == {"a.mesh.ply", "b.mesh.ply"}
     assert "1 of 3 went wrong: bad.xyz" in told
     # The same as alone.
-    assert run(["reconstruct", "a.ply", "--quiet"]) == 0
+    assert run(["reconstruct", "a.ply", "--quiet", "--report", "a.json"]) == 0
+    assert json.loads(Path("a.json").read_text())["options"] == lines["a.ply"]["report"]["options"]
     assert Path("a.mesh.ply").read_bytes() == Path("new/meshes/a.mesh.ply").read_bytes()
 
 

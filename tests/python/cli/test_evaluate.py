@@ -36,6 +36,7 @@ def result(tmp_path: Path) -> Path:
 def scores(capsys: Capture, *arguments: str | Path) -> dict[str, Any]:
     assert run(["evaluate", *map(str, arguments), *FEW, "--json"]) == 0
     told: dict[str, Any] = json.loads(capsys.readouterr().out)
+    assert list(told["files"].values()) == [str(each) for each in arguments[:2]]
     return told
 
 
