@@ -206,9 +206,10 @@ def reconstruct(
     journal.choices += device_choices(options.embedding.device)
     journal.choices += [*prepared.choices, *noise_choices, *count_choices, *embedded.choices, *mesh.choices]
     journal.meshing |= mesh.statistics
-    distances, agreement, _, along_z = measured.comparison
+    compared = measured.comparison
+    distances, agreement, along_z = compared.distances, compared.agreement, compared.along_z
     coarse = coarseness(distances, surface.frame.diagonal, options.meshing)
-    about_mesh = [*faced.notes, *coarse, *measured.comparison.missing_part()]
+    about_mesh = [*faced.notes, *coarse, *compared.missing_part()]
     journal.notes += [*cloud.notes, *found.notes, *prepared.notes, *about_mesh]
     targets = missed_targets(mesh, measured.facts, options.meshing)
     journal.missed += [*prepared.missed, *targets, *measured.error.missed(), *agreement.missed()]
@@ -245,8 +246,9 @@ def _measured(
     with clock.stage("measuring"):
         tell(progress, "measuring", 0)
         facts = mesh_facts(mesh)
-        error = achieved_error(mesh, prepared.surface, prepared.oriented.surface, meshing.error)
         comparison = compare(mesh, prepared, wanted)
+        given = prepared.oriented.surface
+        error = achieved_error(mesh, prepared.surface, given, meshing.error, comparison.of_embedded)
         tell(progress, "measuring", 1)
     return _Measured(facts, comparison, error)
 

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -25,8 +26,9 @@ PLACES = 100_000
 PLACES_AT_ONCE = 2_000
 """So few that what is worked out of them stays in the caches: twice as fast, and next to no memory."""
 
-NEAREST = 24
-"""Points near a place of which one must show it: beside a crease most lie on the other side of it."""
+NEAREST, FEW_NEAREST = 24, 3
+"""Points near a place of which one must show it: beside a crease most lie on the other side of it; and those that are
+tried first."""
 
 TIGHTENED = (0.98, 0.95, 0.85, 0.7)
 """Shares of the error that are tried one after the other, since places between those tried may be a little farther."""
@@ -72,28 +74,44 @@ class ErrorBound:
         """The radii (n,) of the points' disks."""
         return disk_radii(self.surface.points_in_unit, self.surface.neighbors)
 
-    def reached(self, mesh: Mesh, places: int = PLACES) -> ReachedError:
-        """Measure how far a mesh and the points are apart, whatever the error, at so many `places` of the mesh."""
+    def reached(self, mesh: Mesh, places: int = PLACES, distances: NDArray[np.float64] | None = None) -> ReachedError:
+        """Measure how far a mesh and the points are apart, whatever the error, at so many `places` of the mesh.
+
+        `distances` (n,) of the points from the mesh save the search if they are known.
+        """
         points = self.surface.points_in_unit
-        nearest = _core.closest_surface_points(mesh.vertices_in_unit, mesh.faces, points)
-        return ReachedError(float(nearest.distance.max()), float(self._of_places(mesh, places).max(initial=0)))
+        if distances is None:
+            distances = _core.closest_surface_points(mesh.vertices_in_unit, mesh.faces, points).distance
+        return ReachedError(float(distances.max()), self._of_places(mesh, places))
 
     def kept_by(self, mesh: Mesh) -> bool:
         """Return whether a mesh keeps the error, but for rounding."""
         return self.reached(mesh).larger <= self.error * ROUNDING
 
-    def _of_places(self, mesh: Mesh, count: int) -> NDArray[np.float64]:
-        """Return how far `count` places of a mesh, and its vertices, are from the disks of their nearest points."""
+    def _of_places(self, mesh: Mesh, count: int) -> float:
+        """Return how far of `count` places of a mesh, and its vertices, one is from the disks of its nearest points."""
         places = mesh.vertices_in_unit
         if mesh_area(mesh.vertices_in_unit, mesh.faces) > 0:
             places = np.vstack([places, sample_surface(mesh.vertices_in_unit, mesh.faces, count).points])
+        # Fewer disks than all of the nearest points' are no nearer: most places need no more to be known not to be the
+        # farthest, and all others are tried in turn.
+        few = self._nearest(places, FEW_NEAREST)
+        at_most = np.concatenate(
+            [self._of_disks(places[some], few[some]) for some in _in_parts(np.arange(len(places)))]
+        )
+        farthest = 0.0
+        for some in _in_parts(np.argsort(-at_most, kind="stable")):
+            if at_most[some[0]] <= farthest:
+                break
+            distances = self._of_disks(places[some], self._nearest(places[some], NEAREST))
+            shown = ~on_patches(places[some], distances, mesh.patches)
+            farthest = float(distances[shown].max(initial=farthest))
+        return farthest
+
+    def _nearest(self, places: NDArray[np.float64], count: int) -> NDArray[np.int64]:
+        """Return the `count` nearest points (p, count) to places (p, 3)."""
         points = self.surface.points_in_unit
-        nearest = _core.nearest_neighbors(points, places, min(NEAREST, len(points)))
-        distances = np.empty(len(places))
-        for first in range(0, len(places), PLACES_AT_ONCE):
-            rows = slice(first, first + PLACES_AT_ONCE)
-            distances[rows] = self._of_disks(places[rows], nearest[rows])
-        return np.asarray(distances[~on_patches(places, distances, mesh.patches)])
+        return _core.nearest_neighbors(points, places, min(count, len(points)))
 
     def _of_disks(self, places: NDArray[np.float64], nearest: NDArray[np.int64]) -> NDArray[np.float64]:
         """Return the distance (p,) of places (p, 3) from the disk of that of their `nearest` (p, k) that shows it."""
@@ -102,6 +120,12 @@ class ErrorBound:
         aside = np.sqrt(np.maximum(np.einsum("pkc,pkc->pk", offsets, offsets) - heights**2, 0))
         beyond = np.maximum(aside - self.radii[nearest], 0)
         return np.asarray(np.sqrt((heights**2 + beyond**2).min(axis=1)))
+
+
+def _in_parts(rows: NDArray[np.int64]) -> Iterator[NDArray[np.int64]]:
+    """Yield rows (p,) in parts of ``PLACES_AT_ONCE``."""
+    for first in range(0, len(rows), PLACES_AT_ONCE):
+        yield rows[first : first + PLACES_AT_ONCE]
 
 
 def on_patches(

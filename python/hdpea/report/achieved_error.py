@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 
 from hdpea.mesh.error_bound import ROUNDING, ErrorBound
 from hdpea.mesh.extraction import Mesh
@@ -53,10 +54,15 @@ class AchievedError:
             )
 
 
-def achieved_error(mesh: Mesh, surface: Surface, given: Surface, asked: Length | None) -> AchievedError:
-    """Measure a mesh against the points that it was made from: of `surface`, and before denoising of `given`."""
+def achieved_error(
+    mesh: Mesh, surface: Surface, given: Surface, asked: Length | None, distances: NDArray[np.float64]
+) -> AchievedError:
+    """Measure a mesh against the points that it was made from: of `surface`, and before denoising of `given`.
+
+    `distances` (n,) are those of the points of `surface` from the mesh, in the unit frame.
+    """
     diagonal = surface.frame.diagonal
-    reached = ErrorBound(surface, 0.0).reached(mesh).in_world(diagonal)
+    reached = ErrorBound(surface, 0.0).reached(mesh, distances=distances).in_world(diagonal)
     moved = np.linalg.norm(surface.points_in_unit - given.points_in_unit, axis=1).max() * diagonal
     error = None if asked is None else asked.resolve(diagonal)
     return AchievedError(error, reached.points_to_mesh, reached.mesh_to_points, float(moved))

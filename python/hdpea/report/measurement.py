@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from hdpea import _core
 from hdpea.errors import HdpeaError
@@ -68,13 +69,14 @@ def mesh_facts(mesh: Mesh) -> MeshFacts:
 class Comparison(NamedTuple):
     """A mesh next to its points: how far these are, as they were given, and what either has alone, as embedded.
 
-    ``farthest`` is the largest distance of an embedded point from the mesh, in spacings of its vertices; ``along_z`` is
-    None unless the mesh is a height field.
+    ``farthest`` is the largest of the distances (n,) ``of_embedded`` points from the mesh, in spacings of its vertices;
+    they themselves are in the unit frame. ``along_z`` is None unless the mesh is a height field.
     """
 
     distances: Distances
     agreement: Agreement
     farthest: float
+    of_embedded: NDArray[np.float64]
     along_z: HeightDifferences | None = None
 
     def missing_part(self) -> Iterator[str]:
@@ -98,6 +100,7 @@ def compare(mesh: Mesh, prepared: Preparation, vertices: int) -> Comparison:
         Distances.of(distances * diagonal, given.spacing * diagonal),
         agreement_of(mesh, embedded, vertices, of_embedded),
         float(of_embedded.max()) / vertex_spacing if vertex_spacing > 0 else 0.0,
+        of_embedded,
         HeightDifferences.of(height_differences(mesh, given) * diagonal) if is_height_field(mesh) else None,
     )
 

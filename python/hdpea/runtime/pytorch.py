@@ -6,6 +6,7 @@ Which of its builds fits the machine is the user's choice, so pip does not bring
 
 from __future__ import annotations
 
+import gc
 import os
 import sys
 from contextlib import suppress
@@ -50,9 +51,16 @@ def load_in_background() -> None:
 
 
 def _load() -> None:
-    # It fails where the run has ended meanwhile; whoever needs it meets any other error on importing it again.
-    with suppress(Exception):
-        import_module("torch")
+    # Nothing that an import makes is garbage, and the collector would go through all of it over and over.
+    collects = gc.isenabled()
+    gc.disable()
+    try:
+        # It fails where the run has ended meanwhile; whoever needs it meets any other error on importing it again.
+        with suppress(Exception):
+            import_module("torch")
+    finally:
+        if collects:
+            gc.enable()
 
 
 def torch_device(name: str) -> torch.device:

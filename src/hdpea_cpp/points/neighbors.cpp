@@ -36,10 +36,7 @@ class NearestSet {
 
   bool full() const { return best_.size() == k_; }
   /// A little more than the k-th distance, since nanoflann passes on only what is strictly less.
-  double worstDist() const {
-    constexpr double infinity = std::numeric_limits<double>::infinity();
-    return full() ? std::nextafter(best_.back().first, infinity) : std::numeric_limits<double>::max();
-  }
+  double worstDist() const { return bound_; }
   bool addPoint(double distance, Index index) {
     const Candidate candidate{distance, index};
     if (full()) {
@@ -51,6 +48,8 @@ class NearestSet {
     best_.push_back(candidate);
     for (; place > 0 && best_[place - 1] > candidate; --place) best_[place] = best_[place - 1];
     best_[place] = candidate;
+    // Kept, as it is asked for several times as often as it changes.
+    if (full()) bound_ = std::nextafter(best_.back().first, std::numeric_limits<double>::infinity());
     return true;
   }
   /// What nanoflann calls at the end of a search from 1.5 on; they are in order.
@@ -60,11 +59,15 @@ class NearestSet {
  private:
   std::size_t k_;
   std::vector<Candidate> best_;
+  double bound_ = std::numeric_limits<double>::max();
 };
 
 /// A tree in as many dimensions, or, if that is -1, in as many as it is told.
 template <int dimensions>
-using Tree = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Adaptor<double, Adaptor>, Adaptor, dimensions, Index>;
+using Tree = nanoflann::KDTreeSingleIndexAdaptor<
+    std::conditional_t<dimensions == 3, nanoflann::L2_Simple_Adaptor<double, Adaptor>,
+                       nanoflann::L2_Adaptor<double, Adaptor>>,
+    Adaptor, dimensions, Index>;
 
 /// The row's k nearest of `count` points, leaving out `excluded` (-1: nothing is left out).
 template <class AnyTree, class Row>
