@@ -22,22 +22,24 @@ COLUMNS = 6
 """Of the rows that are kept: a point, and its normal, or zeros."""
 
 
-def take_in(stream: PointStream, folder: WorkFolder, options: Options, most_points: int) -> Plan:
+def take_in(stream: PointStream, folder: WorkFolder, options: Options, tile_points: int, most_points: int) -> Plan:
     """Write the points of each tile into the work folder, unless they are there; return the plan.
+
+    `tile_points` and `most_points` are those of ``plan_tiles``.
 
     Raises
     ------
     UnreadableInput
         If no point is finite.
     UsageError
-        If tiles of at most `most_points` cannot be cut.
+        If such tiles cannot be cut.
     """
     if folder.has("plan"):
         return _kept_plan(folder)
     rows = folder.path / "points.f64"
     frame, count = _write_rows(stream, rows)
     cells = Cells.of(frame.to_unit(chunk[:, :3]) for chunk in _chunks(rows, count))
-    plan = plan_tiles(cells, frame, options, most_points)
+    plan = plan_tiles(cells, frame, options, tile_points, most_points)
     _distribute(rows, cells, plan, folder)
     rows.unlink()
     _keep_plan(plan, folder)
@@ -107,10 +109,12 @@ def _distribute(rows: Path, cells: Cells, plan: Plan, folder: WorkFolder) -> Non
 def _keep_plan(plan: Plan, folder: WorkFolder) -> None:
     arrays = {"low": plan.low, "high": plan.high, "neighbors": plan.neighbors, "centre": plan.frame.centre_in_world}
     facts = {"points": plan.points, "halo": plan.halo, "diagonal": plan.frame.diagonal}
+    facts["tile_points"] = plan.tile_points
     folder.save("plan", None, arrays, facts)
 
 
 def _kept_plan(folder: WorkFolder) -> Plan:
     arrays, facts = folder.load("plan"), folder.facts("plan")
     frame = UnitFrame(arrays["centre"], facts["diagonal"])
-    return Plan(frame, facts["points"], arrays["low"], arrays["high"], facts["halo"], arrays["neighbors"])
+    boxes = arrays["low"], arrays["high"]
+    return Plan(frame, facts["points"], *boxes, facts["halo"], arrays["neighbors"], facts["tile_points"])

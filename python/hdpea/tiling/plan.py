@@ -13,6 +13,10 @@ from hdpea.geometry.unit_frame import UnitFrame
 from hdpea.options import Options
 from hdpea.tiling.cells import Cells
 
+TILE_POINTS = 400_000
+"""Most points of a tile, halo included, if the memory has room for as many; twice as many, or four times, where those
+would be all halo. It is no share of the memory, so that the bytes of a mesh do not depend on the machine."""
+
 HALO, HALO_OF_VERTICES = 12.0, 8.0
 """Width of the halos in spacings of as many vertices as the points can show, and in those of the vertices wanted,
 whichever is wider."""
@@ -40,6 +44,8 @@ class Plan:
         How far beyond its box a tile knows the points, in the unit frame.
     neighbors
         (t, t) bool, symmetric: tiles that know points of each other.
+    tile_points
+        Most points that a tile may know.
     """
 
     frame: UnitFrame
@@ -48,6 +54,7 @@ class Plan:
     high: NDArray[np.float64]
     halo: float
     neighbors: NDArray[np.bool_]
+    tile_points: int
 
     @property
     def tiles(self) -> int:
@@ -78,10 +85,18 @@ class Plan:
         return np.asarray((above & below).all(axis=1))
 
 
-def plan_tiles(cells: Cells, frame: UnitFrame, options: Options, most_points: int) -> Plan:
-    """Cut a cloud into tiles of at most `most_points`, halo included.
+def plan_tiles(
+    cells: Cells, frame: UnitFrame, options: Options, tile_points: int, most_points: int | None = None
+) -> Plan:
+    """Cut a cloud into tiles of at most `tile_points`, halo included, or else twice as many, up to `most_points`.
 
     Boxes are halved by the number of points along their longest side until they are small enough.
+
+    Parameters
+    ----------
+    most_points
+        How many there is room for: where tiles of `tile_points` would be all halo, larger ones are tried. Default: no
+        more than `tile_points`.
 
     Raises
     ------
@@ -92,6 +107,18 @@ def plan_tiles(cells: Cells, frame: UnitFrame, options: Options, most_points: in
     area = cells.area()
     shown = float(np.sqrt(area / options.resolution_of(points)))
     halo = max(HALO * shown, HALO_OF_VERTICES * float(np.sqrt(area / options.vertices_of(points))))
+    while (boxes := _boxes(cells, halo, tile_points)) is None:
+        if 2 * tile_points > (most_points or tile_points):
+            raise UsageError(
+                f"Tiles of {tile_points:,} points are all halo.", "Give more `memory`, or ask for more vertices."
+            )
+        tile_points *= 2
+    lows, highs = np.array([low for low, _ in boxes]), np.array([high for _, high in boxes])
+    return Plan(frame, points, lows, highs, halo, _neighbors(cells, lows, highs, halo), tile_points)
+
+
+def _boxes(cells: Cells, halo: float, most_points: int) -> list[tuple[NDArray[np.float64], NDArray[np.float64]]] | None:
+    """Return the corners of boxes that know at most so many points each; None if they would be all halo."""
     boxes = list[tuple[NDArray[np.float64], NDArray[np.float64]]]()
     waiting = [(np.full(3, -np.inf), np.full(3, np.inf))]
     while waiting:
@@ -101,9 +128,7 @@ def plan_tiles(cells: Cells, frame: UnitFrame, options: Options, most_points: in
             boxes.append((low, high))
             continue
         if core < LEAST_CORE * most_points:
-            raise UsageError(
-                f"Tiles of {most_points:,} points are all halo.", "Give more `memory`, or ask for more vertices."
-            )
+            return None
         if cells.in_box(low, high).sum() < 2:
             raise UsageError(
                 f"{core:,} points lie in one place, as seen from the farthest ones; a tile holds {most_points:,}.",
@@ -113,8 +138,7 @@ def plan_tiles(cells: Cells, frame: UnitFrame, options: Options, most_points: in
         left, right = high.copy(), low.copy()
         left[axis] = right[axis] = middle
         waiting += [(right, high), (low, left)]
-    lows, highs = np.array([low for low, _ in boxes]), np.array([high for _, high in boxes])
-    return Plan(frame, points, lows, highs, halo, _neighbors(cells, lows, highs, halo))
+    return boxes
 
 
 def _neighbors(cells: Cells, low: NDArray[np.float64], high: NDArray[np.float64], halo: float) -> NDArray[np.bool_]:

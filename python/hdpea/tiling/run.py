@@ -17,32 +17,26 @@ from hdpea.mesh.extraction import Mesh
 from hdpea.options import Options
 from hdpea.options.choice import Choice
 from hdpea.reading.streaming import PointStream
-from hdpea.report.cost import points_within
+from hdpea.report.cost import PEAK_BYTES, points_within
 from hdpea.report.measurement import mesh_facts, missed_targets
 from hdpea.report.report import Journal, Report
 from hdpea.result import Reconstruction
 from hdpea.runtime.clock import Stage, StageClock
 from hdpea.runtime.progress import ProgressCallback, tell
 from hdpea.runtime.pytorch import check_pytorch
+from hdpea.surface.surface import MIN_POINTS
 from hdpea.tiling.folder import WorkFolder
 from hdpea.tiling.intake import take_in
 from hdpea.tiling.measuring import measured
+from hdpea.tiling.plan import TILE_POINTS
 from hdpea.tiling.scheduling import run
 from hdpea.tiling.tasks import Task, Took, tasks_of
 from hdpea.tiling.work import Work
 from hdpea.version import version
 
-SHARES = 8
-"""Tiles are as large as an eighth of the memory has room for: as many can be worked on at a time, and the tiles,
-and with them the bytes, do not depend on the number of processes."""
-
 HELD = 1.6
 """Memory of a process that works on tiles for each byte that a run of as many points takes in one piece, since it holds
 what earlier tasks have freed: 1.22 GB with 344,000 points, 0.78 GB by the cost model."""
-
-LEAST_SHARE = 1e9
-"""Bytes that a tile may take in any case, if there are as many: 2,000,000 points of a knot in tiles of 84,000, which
-have room in 0.6 GB, are known to 3.3 tiles each, in tiles of 340,000 to 1.3."""
 
 KEY = "hdpea-tiles.key"
 """File by which a work folder is known to be one, and of what."""
@@ -63,7 +57,7 @@ class Tiling:
     scheduler
         Address of a Dask scheduler, in place of these.
     tile_points
-        Most points in a tile, halo included; default: what its share of the memory holds.
+        Most points in a tile, halo included; default: ``TILE_POINTS``, or fewer if the memory has no room for as many.
     """
 
     folder: Path
@@ -72,23 +66,27 @@ class Tiling:
     scheduler: str | None = None
     tile_points: int | None = None
 
-    def most_points(self, options: Options, points: int) -> int:
-        """Return how many points a tile may have, its halo included, of a cloud of so many."""
-        if self.tile_points is not None:
-            return self.tile_points
-        return points_within(self._share / HELD, points / options.vertices_of(points))
+    def sizes(self, options: Options, points: int) -> tuple[int, int]:
+        """Return how many points a tile is to have, its halo included, and may have, of a cloud of so many.
 
-    @property
-    def workers(self) -> int:
-        """How many processes work at a time."""
+        Raises
+        ------
+        UsageError
+            If the memory has no room for any.
+        """
+        if self.tile_points is not None:
+            return self.tile_points, self.tile_points
+        room = points_within(self.memory / HELD, points / options.vertices_of(points))
+        if room < MIN_POINTS:
+            raise UsageError("There is too little memory for tiles of any size.", "Give more `memory`.")
+        return min(TILE_POINTS, room), room
+
+    def workers(self, tile_points: int, points_per_vertex: float) -> int:
+        """Return how many processes work at a time on tiles of so many points."""
         if self.tile_points is not None:
             return self.jobs
-        return max(min(self.jobs, int(self.memory / self._share)), 1)
-
-    @property
-    def _share(self) -> float:
-        """Bytes that a tile may take."""
-        return min(max(self.memory / SHARES, LEAST_SHARE), self.memory)
+        held = HELD * PEAK_BYTES.of(tile_points, round(tile_points / points_per_vertex))
+        return max(min(self.jobs, int(self.memory / held)), 1)
 
 
 def reconstruct_in_tiles(
@@ -96,7 +94,8 @@ def reconstruct_in_tiles(
 ) -> Reconstruction:
     """Make a mesh of a cloud tile by tile, as ``hdpea.reconstruct`` does in one piece.
 
-    The bytes of the mesh depend on the cloud, the options and the size of the tiles, not on who works on them.
+    The bytes of the mesh depend on the cloud and the options, not on who works on the tiles; nor on the memory, unless
+    it has no room for tiles of the usual size, which the report tells.
 
     Raises
     ------
@@ -109,8 +108,8 @@ def reconstruct_in_tiles(
     _check(options)
     check_pytorch()
     journal = Journal(options=options)
-    most = tiling.most_points(options, stream.count)
-    with _work_folder(tiling.folder, f"{version()} {stream.identity} {options} {most}") as folder:
+    size, most = tiling.sizes(options, stream.count)
+    with _work_folder(tiling.folder, f"{version()} {stream.identity} {options} {size}") as folder:
         tell(progress, "tiling", 0)
         classes = options.cleaning.classes
         if classes is not None:
@@ -118,14 +117,16 @@ def reconstruct_in_tiles(
             stream = stream_of_classes(stream, classes)
             options = replace(options, cleaning=replace(options.cleaning, classes=None))
         with journal.clock.stage("tiling"):
-            plan = take_in(stream, folder, options, most)
+            plan = take_in(stream, folder, options, size, most)
         work = Work(folder, plan, options)
-        tasks, after = tasks_of(work, options.threads or max((os.cpu_count() or 1) // tiling.workers, 1))
+        workers = tiling.workers(plan.tile_points, plan.points / options.vertices_of(plan.points))
+        tasks, after = tasks_of(work, options.threads or max((os.cpu_count() or 1) // workers, 1))
         with journal.clock.stage("tiles") as stage:
-            for number, (index, took) in enumerate(run(tasks, after, tiling.workers, tiling.scheduler)):
+            for number, (index, took) in enumerate(run(tasks, after, workers, tiling.scheduler)):
                 _credit(journal.clock, stage, tasks[index], took)
                 tell(progress, "tiles", (number + 1) / len(tasks))
-        return _result(stream, work, tiling, journal)
+        journal.counts["workers"] = workers
+        return _result(stream, work, journal)
 
 
 def _check(options: Options) -> None:
@@ -173,7 +174,7 @@ def _credit(clock: StageClock, within: Stage, task: Task, took: Took) -> None:
         each.peak_bytes = max(each.peak_bytes, took.peak_bytes)
 
 
-def _result(stream: PointStream, work: Work, tiling: Tiling, journal: Journal) -> Reconstruction:
+def _result(stream: PointStream, work: Work, journal: Journal) -> Reconstruction:
     kept, facts = work.folder.load("mesh"), work.folder.facts("mesh")
     tiles = [work.folder.facts("prepared", tile) for tile in range(work.plan.tiles)]
     mesh = Mesh(kept["vertices"], kept["faces"], kept["vertices"], self_intersections=facts["self_intersections"])
@@ -186,12 +187,11 @@ def _result(stream: PointStream, work: Work, tiling: Tiling, journal: Journal) -
         "normals_estimated": sum(each["estimated"] for each in tiles),
         "tiles": work.plan.tiles,
         "points_in_largest_tile": max(each["known"] for each in tiles),
-        "workers": tiling.workers,
     }
     diagonal, agreed = work.plan.frame.diagonal, work.folder.facts("agreed")
     why = "beyond a tile, its points are known"
     journal.choices += [
-        Choice("tiles", work.plan.tiles, "", "as few as their share of the memory allows"),
+        Choice("tiles", work.plan.tiles, "", f"of {work.plan.tile_points:,} points at most, halo included"),
         Choice("halo", work.plan.halo * diagonal, "world units", why),
         Choice("vertices", agreed["vertices"], "", "of all tiles together"),
         Choice("particles", agreed["particles"], "", "of all tiles together"),
@@ -209,4 +209,8 @@ def _result(stream: PointStream, work: Work, tiling: Tiling, journal: Journal) -
 
 def _note(stream: PointStream, work: Work) -> str:
     whole = "" if stream.streamed else "; the file was read whole, as its format has no streaming"
-    return f"Made in {work.plan.tiles} tiles: colours and other attributes are left out{whole}."
+    small = ""
+    if work.plan.tile_points < TILE_POINTS:
+        room = f"{work.plan.tile_points:,} points at most instead of {TILE_POINTS:,}"
+        small = f" They have {room}, which changes the mesh a little."
+    return f"Made in {work.plan.tiles} tiles: colours and other attributes are left out{whole}.{small}"

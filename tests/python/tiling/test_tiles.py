@@ -113,10 +113,26 @@ def test_tiles_without_normals_agree_on_the_outside(tmp_path: Path) -> None:
     assert np.einsum("fc,fc->", corners[:, 0], np.cross(corners[:, 1], corners[:, 2])) > 0
 
 
-def test_neither_processes_nor_points_far_away_change_the_tiles_beyond_what_memory_says() -> None:
-    alone, four = (Tiling(Path(), 8e9, jobs) for jobs in (1, 4))
-    assert alone.most_points(Options(), 10**8) == four.most_points(Options(), 10**8) > 100_000
-    assert (alone.workers, four.workers, Tiling(Path(), 1e9, 4).workers) == (1, 4, 1)
+def test_neither_processes_nor_memory_change_the_tiles_if_there_is_enough() -> None:
+    alone, four, little = Tiling(Path(), 8e9), Tiling(Path(), 64e9, 4), Tiling(Path(), 1e9, 4)
+    sizes = [each.sizes(Options(), 10**8)[0] for each in (alone, four, little)]
+    assert sizes[0] == sizes[1] == plan.TILE_POINTS > sizes[2]
+    assert [each.workers(size, 8.0) for each, size in zip((alone, four, little), sizes, strict=True)] == [1, 4, 1]
+    with pytest.raises(UsageError, match="memory"):
+        Tiling(Path(), 1e6).sizes(Options(), 10**8)
+
+
+def test_tiles_that_would_be_all_halo_are_made_twice_as_large() -> None:
+    points = np.random.default_rng(0).random((5_000, 3)) * [1, 1, 0]
+    frame = UnitFrame.around(points)
+    cells, few = Cells.of([frame.to_unit(points)]), Options(meshing=MeshingOptions(vertices=100))
+    with pytest.raises(UsageError, match="halo"):
+        plan.plan_tiles(cells, frame, few, 2_000)
+    some, more = (plan.plan_tiles(cells, frame, few, 2_000, most).tile_points for most in (10**4, 10**6))
+    assert some == more > 2_000
+
+
+def test_points_far_away_are_told() -> None:
     points = np.vstack([np.random.default_rng(0).random((5_000, 3)), [[1e6, 0, 0]]])
     frame = UnitFrame.around(points)
     with pytest.raises(UsageError, match="one place"):
