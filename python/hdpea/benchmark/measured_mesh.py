@@ -8,7 +8,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from hdpea.geometry.triangles import TriangleMesh
-from hdpea.runtime.clock import cpu_seconds, peak_of_programs_bytes, peak_resident_bytes
+from hdpea.runtime.clock import cpu_seconds, peak_of_process_bytes, peak_of_programs_bytes
 
 
 @dataclass(frozen=True)
@@ -35,5 +35,5 @@ def measured(make: Callable[[], TriangleMesh]) -> MeasuredMesh:
     seconds, cpu = time.perf_counter() - started, cpu_seconds() - worked
     programs = peak_of_programs_bytes()
     # If it has not grown, it may be that of another program, such as a compiler.
-    peak = max(peak_resident_bytes(), programs if programs > largest else 0)
+    peak = max(peak_of_process_bytes(), programs if programs > largest else 0)
     return MeasuredMesh(mesh, seconds, cpu, peak)

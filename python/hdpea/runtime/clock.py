@@ -14,6 +14,9 @@ from pathlib import Path
 _CLEAR_REFS = Path("/proc/self/clear_refs")
 _STATUS = Path("/proc/self/status")
 
+_highest_before = 0
+"""Peak of this process in bytes, until it was last reset."""
+
 
 @dataclass
 class Stage:
@@ -85,6 +88,11 @@ def peak_resident_bytes() -> int:
     return next(int(line.split()[1]) * 1024 for line in status.splitlines() if line.startswith("VmHWM"))
 
 
+def peak_of_process_bytes() -> int:
+    """Return the peak resident memory of this process since its start, however often stages have reset it."""
+    return max(_highest_before, peak_resident_bytes())
+
+
 def cpu_seconds() -> float:
     """Return the processor time of this process, all threads together, and of programs it ran that have ended."""
     programs = resource.getrusage(resource.RUSAGE_CHILDREN)
@@ -101,6 +109,8 @@ def _largest_bytes(who: int) -> int:
 
 
 def _reset_peak() -> None:
+    global _highest_before  # noqa: PLW0603 - as there is one peak of the process, however many clocks
+    _highest_before = peak_of_process_bytes()
     try:
         _CLEAR_REFS.write_text("5")
     except OSError:
