@@ -8,7 +8,6 @@ from numpy.typing import NDArray
 
 from hdpea import _core
 from hdpea.geometry.tensors import symmetric_tensors
-from hdpea.geometry.thinning import rows_along
 
 CELL_NEIGHBORS = 40
 """Nearest particles whose bisectors cut a cell: enough for disks of up to two mean distances."""
@@ -20,9 +19,6 @@ PLANE_NEIGHBORS = 7
 SPARSE_NEIGHBOR = 2
 """Index of the neighbour whose distance widens a disk where it exceeds the mean spacing: the third, which particles at
 a border also have."""
-
-CELLS_MEASURED = 4_000
-"""Most cells of which the mean area is taken: their areas vary by a fifth, so it is certain to a third of a percent."""
 
 MAX_SLOPE = 0.95
 """Sine of the largest angle between a neighbour's direction and the cloud's plane: beyond it lies another sheet."""
@@ -48,35 +44,11 @@ def restricted_cells(
         In mean distances of the particles to their nearest neighbours.
     """
     neighbors = _core.nearest_neighbors(coordinates, CELL_NEIGHBORS)
-    planes, radii = _disks(coordinates, coordinates, neighbors, bases, disk_radius)
-    return _core.restricted_voronoi_candidates(coordinates, planes, neighbors, radii), radii
-
-
-def mean_cell_area(coordinates: NDArray[np.float64], bases: NDArray[np.float64], disk_radius: float) -> float:
-    """Return the mean area of the cells that ``restricted_cells`` would make: of some of them, if there are many."""
-    rows = rows_along(len(coordinates), CELLS_MEASURED)
-    # The nearest to a particle is the particle itself, or one in its place.
-    found = _core.nearest_neighbors(coordinates, coordinates[rows], CELL_NEIGHBORS + 1)[:, 1:]
-    neighbors = np.full((len(coordinates), found.shape[1]), -1)
-    planes, radii = bases.reshape(len(coordinates), -1).copy(), np.ones(len(coordinates))
-    neighbors[rows] = found
-    planes[rows], radii[rows] = _disks(coordinates, coordinates[rows], found, bases[rows], disk_radius)
-    cells = _core.restricted_voronoi_candidates(coordinates, planes, neighbors, radii)
-    return float(cells.cell_areas[rows].mean())
-
-
-def _disks(
-    coordinates: NDArray[np.float64],
-    centres: NDArray[np.float64],
-    neighbors: NDArray[np.int64],
-    bases: NDArray[np.float64],
-    disk_radius: float,
-) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Return flat bases (m, 2 d) of the disks at `centres` (m, d) among their neighbours (m, k), and radii (m,)."""
-    offsets = coordinates[neighbors[:, :PLANE_NEIGHBORS]] - centres[:, None]
+    offsets = coordinates[neighbors[:, :PLANE_NEIGHBORS]] - coordinates[:, None]
     distances = np.linalg.norm(offsets, axis=2)
     radii = disk_radius * np.maximum(distances[:, 0].mean(), distances[:, SPARSE_NEIGHBOR])
-    return _planes(offsets, distances, bases).reshape(len(centres), -1), radii
+    flat_bases = _planes(offsets, distances, bases).reshape(len(coordinates), -1)
+    return _core.restricted_voronoi_candidates(coordinates, flat_bases, neighbors, radii), radii
 
 
 def _planes(

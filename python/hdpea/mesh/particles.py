@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from hdpea import _core
 from hdpea.errors import core_errors_translated
 from hdpea.geometry.spatial_order import spatial_order
-from hdpea.mesh.cells import mean_cell_area
+from hdpea.mesh.cells import restricted_cells
 from hdpea.options import EmbeddingOptions, ParticleOptions
 from hdpea.options.particles import ITERATIONS
 from hdpea.runtime.progress import PhaseCallback
@@ -161,8 +161,8 @@ def spread_particles(
         seeds = _seeds(coordinates, count, options.seed, placed, free)
         beside = Particles(coordinates[:0], seeds[:0]) if placed is None else placed
         starts = np.vstack([coordinates[seeds], beside.coordinates])
-        area = mean_cell_area(starts, bases[np.concatenate([seeds, beside.nearest])], AREA_DISK_RADIUS)
-        squared_width = KERNEL_WIDTH**2 * area
+        cells, _ = restricted_cells(starts, bases[np.concatenate([seeds, beside.nearest])], AREA_DISK_RADIUS)
+        squared_width = KERNEL_WIDTH**2 * float(cells.cell_areas.sum()) / len(starts)
         cloud = _Cloud(coordinates, bases, neighbors, torch_device(device))
         nearest = torch.tensor(seeds, device=cloud.points.device)  # (m,)
         x = cloud.points[nearest]  # (m, d)
