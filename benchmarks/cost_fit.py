@@ -19,6 +19,7 @@ from pathlib import Path
 import click
 import numpy as np
 from numpy.typing import NDArray
+from scipy.optimize import nnls
 from stage_times import made, run_once
 
 from hdpea.report.cost import Cost
@@ -62,15 +63,14 @@ def measured(points: int, vertices: int) -> Measured:
 
 
 def fitted(runs: dict[str, Measured], name: str, powers: NDArray[np.float64]) -> Cost:
-    """Return the cost whose largest relative error is least in the sum of squares, without negative parts."""
+    """Return the cost whose relative errors are least in the sum of their squares, without negative parts."""
     sizes = np.array([[float(count) / 1000 for count in size.split("/")] for size in runs])
     wanted = np.array([run[name] for run in runs.values()])
     best, least = Cost(0, 0, 0), np.inf
     for of_points, of_vertices in itertools.product(powers, powers):
         design = np.column_stack([np.ones(len(sizes)), sizes[:, 0] ** of_points, sizes[:, 1] ** of_vertices])
-        parts = np.linalg.lstsq(design / wanted[:, None], np.ones(len(sizes)))[0]
-        error = float(np.square(design @ parts / wanted - 1).sum())
-        if (parts >= 0).all() and error < least:
+        parts, error = nnls(design / wanted[:, None], np.ones(len(sizes)))
+        if error < least:
             best, least = Cost(*parts.tolist(), round(float(of_points), 2), round(float(of_vertices), 2)), error
     return best
 

@@ -206,10 +206,9 @@ def reconstruct(
     journal.choices += device_choices(options.embedding.device)
     journal.choices += [*prepared.choices, *noise_choices, *count_choices, *embedded.choices, *mesh.choices]
     journal.meshing |= mesh.statistics
-    compared = measured.comparison
-    distances, agreement, along_z = compared.distances, compared.agreement, compared.along_z
+    distances, agreement, _, _, along_z = measured.comparison
     coarse = coarseness(distances, surface.frame.diagonal, options.meshing)
-    about_mesh = [*faced.notes, *coarse, *compared.missing_part()]
+    about_mesh = [*faced.notes, *coarse, *measured.comparison.missing_part()]
     journal.notes += [*cloud.notes, *found.notes, *prepared.notes, *about_mesh]
     targets = missed_targets(mesh, measured.facts, options.meshing)
     journal.missed += [*prepared.missed, *targets, *measured.error.missed(), *agreement.missed()]
