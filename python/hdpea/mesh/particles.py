@@ -48,7 +48,7 @@ STRIDES = 12
 
 AT_ONCE = 2_000
 """Rows that the processor works on at a time, so few that what is worked out of them stays in its caches: of 83,000
-particles a step takes a third of the time. A graphics processor takes all at once."""
+particles a step takes half of the time. A graphics processor takes all at once."""
 
 
 @dataclass(frozen=True)
@@ -88,7 +88,7 @@ class _Cloud:
         # or off a fold; the median is no larger where some of the neighbours lie beyond a tear. A point at a
         # border has its neighbours on one side, twice as far: the least reach around it is that of the inside.
         reach, reach_in_space = (self.points.new_empty(len(self.points)) for _ in range(2))
-        for rows in blocks(self.points):
+        for rows in _blocks(self.points):
             apart = self.points[self.strides[rows, 1:]] - self.points[rows, None]  # (b, k, d)
             reach[rows] = _median_length(apart)
             reach_in_space[rows] = _median_length(apart[:, :, :3])
@@ -176,7 +176,7 @@ def spread_particles(
                 found = _core.nearest_neighbors(everyone.cpu().numpy(), min(INTERACTIONS, len(starts) - 1))
                 others = torch.from_numpy(found[:count]).to(x.device)  # (m, k)
             size = STEP * DECAY ** (step // DECAY_EVERY)
-            for rows in blocks(x):
+            for rows in _blocks(x):
                 force = _force(x[rows], everyone[others[rows]], squared_width)
                 moved, nearest[rows] = cloud.project(x[rows] + MOMENTUM * velocity[rows] + size * force, nearest[rows])
                 # What the projection took away must not push on in the next step.
@@ -203,7 +203,7 @@ def _seeds(
     return np.asarray(seeds[spatial_order(coordinates[seeds, :3])])
 
 
-def blocks(tensor: torch.Tensor) -> Iterator[slice]:
+def _blocks(tensor: torch.Tensor) -> Iterator[slice]:
     """Yield the rows of a tensor, so many at a time as its device is fast with."""
     at_once = AT_ONCE if tensor.device.type == "cpu" else max(len(tensor), 1)
     for first in range(0, len(tensor), at_once):

@@ -15,7 +15,11 @@ from scipy.spatial import cKDTree
 from hdpea import Reconstruction, reconstruct
 from hdpea.errors import UsageError
 from hdpea.geometry.sampling import sample_surface
+from hdpea.mesh.error_bound import ErrorBound
+from hdpea.mesh.extraction import Mesh
 from hdpea.options import Length, MeshingOptions
+from hdpea.surface.normals import oriented_surface
+from hdpea.surface.surface import disk_radii
 
 SHAPES = {"cube": clouds.box, "plane": clouds.plane, "sphere": clouds.sphere}
 COUNT = 2500
@@ -55,6 +59,20 @@ def test_a_larger_error_takes_fewer_triangles() -> None:
     counts = [len(made("sphere", error).faces) for error in ("0.5%", "2%", "8%")]
     assert counts == sorted(counts, reverse=True)
     assert len(set(counts)) == 3
+
+
+def test_the_farthest_place_is_the_farthest_of_all() -> None:
+    points, normals = clouds.box(COUNT)
+    surface, made_of_few = oriented_surface(points, normals).surface, reconstruct(points, normals, vertices=60)
+    vertices, faces = surface.frame.to_unit(made_of_few.vertices), made_of_few.faces
+    places = np.vstack([vertices, sample_surface(vertices, faces, 3000).points])
+    nearest = cKDTree(surface.points_in_unit).query(places, 24)[1]
+    offsets = places[:, None] - surface.points_in_unit[nearest]
+    heights = (offsets * surface.normals[nearest]).sum(axis=2)
+    aside = np.sqrt(np.maximum((offsets**2).sum(axis=2) - heights**2, 0))
+    beyond = np.maximum(aside - disk_radii(surface.points_in_unit, surface.neighbors)[nearest], 0)
+    reached = ErrorBound(surface, 0.0).reached(Mesh(vertices, faces, vertices), places=3000)
+    assert reached.mesh_to_points == pytest.approx(np.sqrt(heights**2 + beyond**2).min(axis=1).max())
 
 
 def test_it_does_not_depend_on_the_frame() -> None:
