@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from hdpea import _core
+from hdpea.frontend.patches import PLANE, QUADRIC, Patches, deviation
 from hdpea.geometry.thinning import rows_along
 
 SAMPLES = 2_000
@@ -64,34 +64,12 @@ def roughness_of(points: NDArray[np.float64]) -> Roughness:
     count = len(points)
     if count < NEIGHBORS:
         return Roughness(0.0, False)
-    rows = rows_along(count, SAMPLES)
-    around = points[_core.nearest_neighbors(points, points[rows], NEIGHBORS)]
-    offsets = around - around.mean(axis=1, keepdims=True)
-    radii = np.linalg.norm(around - points[rows, None], axis=2).max(axis=1)
-    # Points that are distinct in the world may be equal in the unit frame: those lie on any plane.
-    radii = np.where(radii > 0, radii, 1.0)
-    _, frames = np.linalg.eigh(offsets.swapaxes(1, 2) @ offsets)
-    height, u, v = np.moveaxis((offsets @ frames) / radii[:, None, None], 2, 0)
-    plane = np.stack([np.ones_like(u), u, v], axis=2)
-    residuals = _residuals(plane, height)
-    spread = float(np.median(_shortest_half(residuals) / _deviation(residuals, plane.shape[2])))
-    quadratic = np.concatenate([plane, np.stack([u * u, u * v, v * v], axis=2)], axis=2)
-    deviations = _deviation(_residuals(quadratic, height), quadratic.shape[2]) * np.sqrt(NEIGHBORS / np.pi)
+    patches = Patches.around(points, rows_along(count, SAMPLES), NEIGHBORS)
+    residuals = patches.residuals(PLANE)
+    spread = float(np.median(_shortest_half(residuals) / deviation(residuals, PLANE)))
+    deviations = deviation(patches.residuals(QUADRIC), QUADRIC) * np.sqrt(NEIGHBORS / np.pi)
     seen = float(np.quantile(deviations, CLEANEST))
     return Roughness(seen / max(1 - (seen / SATURATED) ** 4, LEAST_SHARE), spread >= SPREAD)
-
-
-def _residuals(design: NDArray[np.float64], height: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return the residuals (m, k) of heights (m, k) after the least-squares fit of a design (m, k, c)."""
-    # By the pseudo-inverse: neighbours on a line do not determine the surface, and leave no residual.
-    residuals: NDArray[np.float64] = height - (design @ (np.linalg.pinv(design) @ height[:, :, None]))[:, :, 0]
-    return residuals
-
-
-def _deviation(residuals: NDArray[np.float64], unknowns: int) -> NDArray[np.float64]:
-    """Return the standard deviation (m,) of the residuals (m, k) of a fit of so many unknowns; never quite 0."""
-    squares = np.square(residuals).sum(axis=1)
-    return np.asarray(np.sqrt(np.maximum(squares / (residuals.shape[1] - unknowns), np.finfo(np.float64).tiny)))
 
 
 def _shortest_half(values: NDArray[np.float64]) -> NDArray[np.float64]:
