@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from hdpea import _core
 from hdpea.frontend.patches import PLANE, QUADRIC, Patches, deviation
 from hdpea.geometry.thinning import rows_along
 
@@ -26,6 +27,16 @@ measured.
 
 The residuals of two sheets, as of thin walls, lie nearer to their two heights (``benchmarks/roughness_table.py``)."""
 
+REGION, ROUGHEST = 100, 0.8
+"""Samples that make a region, and the quantile over regions of noise that is reported where they differ: noise grows
+with the distance from a sensor."""
+
+DIFFER, LEAST_NOISY = 1.5, 0.4
+"""How many times rougher than the cleanest the roughest regions then are, and which share of the regions is noise.
+
+With even noise of 0.1 and 0.3 % of the diagonal 19 training meshes have 1.13 at most, twelve views from eight sides
+1.4; where it grows with the square of a range of 3 to 5 radii, three shapes have 1.7 to 2.8."""
+
 SATURATED, LEAST_SHARE = 0.94, 0.25
 """Residual of a quadric, in spacings, that no noise exceeds, and the least share of the noise that it can be.
 
@@ -41,7 +52,8 @@ class Roughness:
     ----------
     deviation
         Standard deviation across the surface, in spacings of the points (a spacing is the square root of the area per
-        point): the residual of quadratic surfaces, so that curvature does not count.
+        point): the residual of quadratic surfaces, so that curvature does not count. Of noise that differs from region
+        to region that of the roughest.
     like_noise
         Whether it is distributed like noise. The two sides of thin walls are not, nor are misaligned scans.
     """
@@ -64,12 +76,29 @@ def roughness_of(points: NDArray[np.float64]) -> Roughness:
     count = len(points)
     if count < NEIGHBORS:
         return Roughness(0.0, False)
-    patches = Patches.around(points, rows_along(count, SAMPLES), NEIGHBORS)
+    rows = rows_along(count, SAMPLES)
+    patches = Patches.around(points, rows, NEIGHBORS)
     residuals = patches.residuals(PLANE)
-    spread = float(np.median(_shortest_half(residuals) / deviation(residuals, PLANE)))
+    spreads = _shortest_half(residuals) / deviation(residuals, PLANE)
     deviations = deviation(patches.residuals(QUADRIC), QUADRIC) * np.sqrt(NEIGHBORS / np.pi)
-    seen = float(np.quantile(deviations, CLEANEST))
-    return Roughness(seen / max(1 - (seen / SATURATED) ** 4, LEAST_SHARE), spread >= SPREAD)
+    seen, like_noise = float(np.quantile(deviations, CLEANEST)), float(np.median(spreads)) >= SPREAD
+    roughest = _of_noisy_regions(np.ascontiguousarray(points[rows]), deviations, spreads)
+    if roughest > DIFFER * seen:
+        seen, like_noise = roughest, True
+    return Roughness(seen / max(1 - (seen / SATURATED) ** 4, LEAST_SHARE), like_noise)
+
+
+def _of_noisy_regions(
+    points: NDArray[np.float64], deviations: NDArray[np.float64], spreads: NDArray[np.float64]
+) -> float:
+    """Return the deviation (m,) in the roughest regions around points (m, 3) where it is noise; 0 if hardly any is."""
+    if len(points) < 2 * REGION:
+        return 0.0
+    around = _core.nearest_neighbors(points, points, REGION)
+    noise = np.median(spreads[around], axis=1) >= SPREAD
+    if noise.mean() < LEAST_NOISY:
+        return 0.0
+    return float(np.quantile(np.quantile(deviations[around], CLEANEST, axis=1)[noise], ROUGHEST))
 
 
 def _shortest_half(values: NDArray[np.float64]) -> NDArray[np.float64]:
