@@ -80,10 +80,11 @@ def sampling_of(points: NDArray[np.float64], nearest: NDArray[np.int64]) -> Samp
     Of each the `nearest` (n, 32) are known.
 
     Lines are told by the local dimension (Levina and Bickel, "Maximum likelihood estimation of intrinsic dimension",
-    2004). Where many points lie on some, or at the same places, the cloud is looked at in levels, each its farthest points (Eldar et al.,
-    "The farthest point strategy for progressive image sampling", 1997), which have a least distance: on the first level
-    whose points have no more surface for themselves than this allows for, they surround each other on all sides. It
-    does not matter how dense lines are, nor whether they cross. Neither moving, turning nor scaling makes a difference.
+    2004). Where many points lie on some, or at the same places, the cloud is looked at in levels, each its farthest
+    points (Eldar et al., "The farthest point strategy for progressive image sampling", 1997), which have a least
+    distance: on the first level whose points have no more surface for themselves than this allows for, they surround
+    each other on all sides. It does not matter how dense lines are, nor whether they cross. Neither moving, turning nor
+    scaling makes a difference.
     """
     even_spacing = _even_spacing(points, nearest)
     on_lines = float((_dimension(points, nearest) < LINE_DIMENSION).mean())
