@@ -6,7 +6,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 from hdpea.errors import core_errors_translated
-from hdpea.frontend.registration import moved_together
+from hdpea.frontend.registration import Met, moved_together
 from hdpea.frontend.volume import fills_a_volume
 from hdpea.options import DenoisingOptions, NormalOptions
 from hdpea.options.choice import Choice
@@ -80,13 +80,10 @@ def prepare_surface(
         If normals are to be turned to a viewpoint and there is none.
     """
     clock = clock or StageClock()
-    met = None
-    if denoising is not None and denoising.denoise == "auto" and not cloud.counts()["usable_normals"]:
-        with clock.stage("denoising"), core_errors_translated():
-            met = moved_together(cloud.points)
+    with clock.stage("normals"):
+        met = _scans_that_met(cloud, denoising)
         if met is not None:
             cloud = replace(cloud, points=met.points)
-    with clock.stage("normals"):
         oriented = oriented_surface(cloud.points, cloud.normals, normals, points_per_vertex, progress, cloud.sensors())
     surface, choices = oriented.surface, oriented.choices
     if denoising is not None:
@@ -100,6 +97,14 @@ def prepare_surface(
     if met is not None:
         notes.append(f"Two scans lay {met.apart:.3g} apart: they were moved together, each half of the way.")
     return Preparation(surface, oriented, choices, tuple(notes), missed)
+
+
+def _scans_that_met(cloud: PointCloud, denoising: DenoisingOptions | None) -> Met | None:
+    """Move two scans together, if points may be moved and no normals tell whether layers are walls."""
+    if denoising is None or denoising.denoise != "auto" or cloud.counts()["usable_normals"]:
+        return None
+    with core_errors_translated():
+        return moved_together(cloud.points)
 
 
 def _notes(cloud: PointCloud, oriented: OrientedSurface) -> list[str]:
