@@ -8,6 +8,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from hdpea import _core
+from hdpea.geometry.triangles import mesh_area
 from hdpea.mesh.anisotropic_remeshing import remesh_anisotropically
 from hdpea.mesh.budget import Budget
 from hdpea.mesh.creases import align_to_creases, find_creases, with_crease_edges_counted
@@ -21,10 +23,15 @@ from hdpea.options import Options, ParticleOptions
 from hdpea.options.particles import ITERATIONS, ITERATIONS_OF_MANY
 from hdpea.runtime.clock import StageClock
 from hdpea.runtime.progress import ProgressCallback, of_phase, tell
-from hdpea.surface.surface import Surface
+from hdpea.surface.surface import MIN_POINTS, Surface
 
 ATTEMPTS = 3
 """How often at most particles are spread, each time more of them, where their mesh has too few vertices."""
+
+LEFT_OUT = 2.0
+"""Distance from the mesh, in spacings of its vertices, from which points do not draw it where pieces were dropped.
+
+They are those of these pieces: of CGAL's hippo1 and hippo2 they drew a spike out of a foot."""
 
 
 @dataclass(frozen=True)
@@ -87,6 +94,10 @@ def assemble_mesh(
     mesh = _mesh_of_particles(surface, coordinates, bases, options, counts, progress, clock)
     with clock.stage("refinement"):
         creases = find_creases(surface)
+        kept = _points_of_kept_pieces(mesh, surface, counts.vertices)
+        if kept is not None:
+            surface = Surface.of(surface.frame, surface.points_in_unit[kept], surface.normals[kept])
+            coordinates, bases = coordinates[kept], bases[kept]
         mesh = align_to_creases(mesh, creases)
         mesh = refine_mesh(mesh, surface, options.refinement, of_phase(progress, "refinement"))
     bound = None
@@ -111,6 +122,19 @@ def assemble_mesh(
         mesh = repair_mesh(mesh, surface.points_in_unit, exact=exact) if bound is None else mended_within(mesh, bound)
         tell(progress, "repair", 1)
     return with_crease_edges_counted(mesh, creases)
+
+
+def _points_of_kept_pieces(mesh: Mesh, surface: Surface, vertices: int) -> NDArray[np.int64] | None:
+    """Return the rows (m,) of the points that are not of pieces dropped from a mesh of so many vertices in the end.
+
+    None if all are kept.
+    """
+    if not mesh.statistics.get("dropped_components"):
+        return None
+    spacing = np.sqrt(mesh_area(mesh.vertices_in_unit, mesh.faces) / vertices)
+    distances = _core.closest_surface_points(mesh.vertices_in_unit, mesh.faces, surface.points_in_unit).distance
+    kept = np.flatnonzero(distances <= LEFT_OUT * spacing)
+    return kept if MIN_POINTS <= len(kept) < len(distances) else None
 
 
 def _mesh_of_particles(

