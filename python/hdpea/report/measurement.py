@@ -101,7 +101,7 @@ def compare(mesh: Mesh, prepared: Preparation, vertices: int) -> Comparison:
         agreement_of(mesh, embedded, vertices, of_embedded),
         float(of_embedded.max()) / vertex_spacing if vertex_spacing > 0 else 0.0,
         of_embedded,
-        HeightDifferences.of(height_differences(mesh, given) * diagonal) if is_height_field(mesh) else None,
+        HeightDifferences.of(height_differences(mesh, given, distances) * diagonal) if is_height_field(mesh) else None,
     )
 
 

@@ -38,7 +38,8 @@ def measure(work: Work, tile: int) -> None:
     }
     distances, heights = np.full(len(given.points_in_unit), np.inf), np.full(len(given.points_in_unit), np.nan)
     if len(around.faces):
-        distances, heights = distances_to(around, given), height_differences(around, given)
+        distances = distances_to(around, given)
+        heights = height_differences(around, given, distances)
         facts["points_without_mesh"] = agreement_of(around, surface, vertices).points_without_mesh
     if len(own.faces):
         facts["area_without_points"] = agreement_of(own, surface, vertices).area_without_points

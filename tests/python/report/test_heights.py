@@ -25,7 +25,19 @@ def surface_of(points: Array) -> Surface:
 
 def test_heights_are_along_z_and_unknown_beside_the_mesh() -> None:
     points = np.array([[0.5, 0.4, 0.1], [1.5, 0.4, 0.7], [3, 0, 0]])
-    np.testing.assert_allclose(height_differences(STAIR, surface_of(points)), [0.1, -0.3, np.nan])
+    found = height_differences(STAIR, surface_of(points), np.array([0.1, 0.3, 1]))
+    np.testing.assert_allclose(found, [0.1, -0.3, np.nan], atol=1e-6)
+
+
+def test_of_layers_the_nearest_counts_and_not_what_lies_below_the_eaves() -> None:
+    ground = np.array([[0, 0, 0], [9, 0, 0], [9, 9, 0], [0, 9, 0.0]])
+    roof = ground / 3 + [3, 3, 1]
+    square = np.array([[0, 1, 2], [0, 2, 3]])
+    layers = np.concatenate([ground, roof])
+    house = Mesh(layers, np.concatenate([square, 4 + square]), layers)
+    points = surface_of(np.array([[4, 4, 0.1], [4, 4, 0.9], [2.95, 4, 1]]))
+    found = height_differences(house, points, np.array([0.1, 0.1, 0.05]))
+    np.testing.assert_allclose(found, [0.1, -0.1, np.nan], atol=1e-6)
 
 
 def test_what_faces_up_everywhere_is_a_height_field() -> None:
