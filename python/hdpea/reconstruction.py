@@ -206,13 +206,15 @@ def reconstruct(
     journal.choices += device_choices(options.embedding.device)
     journal.choices += [*prepared.choices, *noise_choices, *count_choices, *embedded.choices, *mesh.choices]
     journal.meshing |= mesh.statistics
-    distances, agreement, _, _, along_z = measured.comparison
-    coarse = coarseness(distances, surface.frame.diagonal, options.meshing)
-    about_mesh = [*faced.notes, *coarse, *measured.comparison.missing_part()]
+    compared = measured.comparison
+    coarse = coarseness(compared.distances, surface.frame.diagonal, options.meshing)
+    about_mesh = [*faced.notes, *coarse, *compared.missing_part()]
     journal.notes += [*cloud.notes, *found.notes, *prepared.notes, *about_mesh]
     targets = missed_targets(mesh, measured.facts, options.meshing)
-    journal.missed += [*prepared.missed, *targets, *measured.error.missed(), *agreement.missed()]
-    report = Report.of(journal, measured.facts, distances, agreement, measured.error, along_z)
+    journal.missed += [*prepared.missed, *targets, *measured.error.missed(), *compared.agreement.missed()]
+    report = Report.of(
+        journal, measured.facts, compared.distances, compared.agreement, measured.error, compared.along_z
+    )
     return Reconstruction(
         surface.frame.to_world(mesh.vertices_in_unit),
         mesh.faces,

@@ -58,7 +58,7 @@ def _describe(facts: CloudFacts) -> str:
         "extent": " x ".join(f"{length:.6g}" for length in extent) + f", diagonal {facts.diagonal:.6g}",
         "spacing": _spacing(facts),
         "normals": _normals(facts),
-        "crs": facts.crs or "",
+        "crs": facts.crs or "not told by the file",
         "a run needs": _needs(facts),
     }
     return "\n".join([*(f"{name:<12}{value}" for name, value in rows.items() if value), *facts.notes])

@@ -39,8 +39,8 @@ def is_height_field(mesh: Mesh) -> bool:
 def height_differences(mesh: Mesh, surface: Surface, distances: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return how high each point (n,) of a surface is above a height field, in the unit frame.
 
-    Negative below it, and NaN where nothing is above or below the point, but for layers that are far. Where parts of the
-    mesh lie above each other the nearest counts. `distances` (n,) are those of the points from the mesh.
+    Negative below it, and NaN where nothing is above or below the point, but for layers that are far. Where parts of
+    the mesh lie above each other the nearest counts. `distances` (n,) are those of the points from the mesh.
     """
     scale = np.array([1.0, 1.0, FLATTENED])
     feet = _core.closest_surface_points(mesh.vertices_in_unit * scale, mesh.faces, surface.points_in_unit * scale)
