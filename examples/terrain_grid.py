@@ -1,9 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""From a scan of terrain to its mesh, and to a grid of heights that QGIS and GDAL open.
+"""From a mesh of terrain to a grid of heights that QGIS and GDAL open, an ESRI ASCII grid.
 
-    python examples/terrain_grid.py tile.ply terrain.asc --cell 0.5 --classes 2
-
-The grid is an ESRI ASCII grid; beside it lies the mesh, terrain.ply.
+hdpea reconstruct tile.ply ground.obj --classes 2 --error 0.1
+python examples/terrain_grid.py ground.obj terrain.asc --cell 0.5
 """
 
 from __future__ import annotations
@@ -14,7 +13,7 @@ import click
 import numpy as np
 from numpy.typing import NDArray
 
-import hdpea
+from hdpea.reading.triangle_mesh import read_triangle_mesh
 
 UNKNOWN = -9999.0
 
@@ -50,22 +49,21 @@ def heights_of(
 
 
 @click.command()
-@click.argument("scan", type=click.Path(path_type=Path))
+@click.argument("mesh", type=click.Path(path_type=Path))
 @click.argument("out", type=click.Path(path_type=Path))
-@click.option("--cell", default=1.0, show_default=True, help="size of a cell, in the units of the scan")
-@click.option("--classes", help="take only the points of these classes: 2 is ground")
-def main(scan: Path, out: Path, cell: float, classes: str | None) -> None:
-    """Write the heights of the terrain in SCAN to OUT."""
-    mesh = hdpea.reconstruct(hdpea.read(scan), classes=classes)
-    mesh.write(out.with_suffix(".ply"))
-    low, high = mesh.vertices[:, :2].min(axis=0), mesh.vertices[:, :2].max(axis=0)
-    columns, rows = np.ceil((high - low) / cell).astype(int)
-    grid = np.nan_to_num(heights_of(mesh.vertices, mesh.faces, low, (rows, columns), cell), nan=UNKNOWN)
+@click.option("--cell", default=1.0, show_default=True, help="size of a cell, in the units of the mesh")
+def main(mesh: Path, out: Path, cell: float) -> None:
+    """Write the heights of the terrain MESH to OUT."""
+    vertices, faces = read_triangle_mesh(mesh)
+    # Corners are multiples of the cell, so that the grids of neighbouring tiles fit together.
+    low = cell * np.floor(vertices[:, :2].min(axis=0) / cell)
+    columns, rows = np.ceil((vertices[:, :2].max(axis=0) - low) / cell).astype(int)
+    grid = np.nan_to_num(heights_of(vertices, faces, low, (rows, columns), cell), nan=UNKNOWN)
     corner = f"xllcorner {low[0]}\nyllcorner {low[1]}"
     head = f"ncols {columns}\nnrows {rows}\n{corner}\ncellsize {cell}\nnodata_value {UNKNOWN}"
     # From north to south.
     np.savetxt(out, grid[::-1], fmt="%.4f", header=head, comments="")
-    print(f"{len(mesh.faces)} faces -> {rows} x {columns} cells, {np.mean(grid != UNKNOWN):.0%} of them known")
+    print(f"{len(faces)} faces -> {rows} x {columns} cells, {np.mean(grid != UNKNOWN):.0%} of them known")
 
 
 if __name__ == "__main__":

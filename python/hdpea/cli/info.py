@@ -98,16 +98,20 @@ def _normals(facts: CloudFacts) -> str:
 
 
 def _needs(facts: CloudFacts) -> str:
-    from hdpea.report.cost import TILED_SECONDS
+    from hdpea.report.cost import PEAK_BYTES, TILED_DISK_BYTES, TILED_SECONDS
     from hdpea.surface.surface import MIN_POINTS
+    from hdpea.tiling.plan import TILE_POINTS
 
-    if facts.counts["points"] < MIN_POINTS:
+    points = facts.counts["points"]
+    if points < MIN_POINTS:
         return f"at least {MIN_POINTS} points"
     cost = f"about {facts.estimated_seconds:.0f} s and {facts.estimated_peak_bytes / 1e9:.1f} GB"
     if _is_tiled(facts):
-        seconds = TILED_SECONDS * facts.counts["points"]
+        each = PEAK_BYTES.of(TILE_POINTS, round(TILE_POINTS * facts.default_vertices / points))
         return (
-            f"about {seconds:.0f} s in tiles on two cores, for {facts.default_vertices:,} vertices; in one piece {cost}"
+            f"about {TILED_SECONDS * points:.0f} s in tiles with --jobs 2, {each / 1e9:.1f} GB in each process and "
+            f"{TILED_DISK_BYTES * points / 1e9:.1f} GB of the disk, for {facts.default_vertices:,} vertices; "
+            f"in one piece {cost}. --error and colours are for one piece: cut a larger cloud yourself"
         )
     return f"{cost} for {facts.default_vertices:,} vertices, on two cores"
 

@@ -46,6 +46,9 @@ TILED_SECONDS = 0.1e-3
 """Seconds for each point of a cloud in tiles, on two cores: 0.19 ms of a processor, of 2,000,000 points
 (``docs/scaling.md``)."""
 
+TILED_DISK_BYTES = 605
+"""Bytes of the disk for each point of a cloud in tiles, while they are worked on (``docs/scaling.md``)."""
+
 
 def seconds_of_run(points: int, vertices: int, oriented: bool) -> float:
     """Return the seconds of a run on a cloud whose normals are `oriented`, such that their signs will be kept."""

@@ -37,7 +37,8 @@ def inspect_stream(stream: PointStream) -> CloudFacts:
     counts = {name: round(times * count) for name, count in facts.counts.items()}
     vertices = round(times * facts.default_vertices)
     kept = counts["points"] - counts["dropped_strays"] - counts["dropped_on_lines"]
-    note = f"By {len(sample.points):,} random points of {stream.count:,}: counts and spacings are estimates."
+    looked_at = f"By {len(sample.points):,} random points of {stream.count:,}"
+    note = f"{looked_at}: counts and spacings are estimates; the lines below are of these."
     return replace(
         facts,
         counts=counts,

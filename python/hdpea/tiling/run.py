@@ -139,7 +139,8 @@ def _check(options: Options) -> None:
     }
     refused = [f"`{name}`" for name, value in asked.items() if value]
     if refused:
-        raise UsageError(f"A cloud in tiles takes no {', '.join(refused)}.", "Give more `memory`, or leave that away.")
+        hint = "Give more `memory`, leave that away, or cut the cloud into pieces."
+        raise UsageError(f"A cloud in tiles takes no {', '.join(refused)}.", hint)
 
 
 @contextmanager

@@ -50,4 +50,4 @@ def test_info_tells_what_will_be_made_in_tiles(
     assert "in tiles" not in capsys.readouterr().out
     monkeypatch.setattr(Resources, "bytes", lambda _: 1.0)
     assert run(["info", str(tmp_path / "scan.npy")]) == 0
-    assert "in tiles on two cores, for 100 vertices; in one piece about" in capsys.readouterr().out
+    assert "GB of the disk, for 100 vertices; in one piece about" in capsys.readouterr().out
