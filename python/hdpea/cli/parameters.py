@@ -63,8 +63,8 @@ class CountType(click.ParamType[int]):
         try:
             return int(value)
         except ValueError:
-            digits = re.sub(r"[ ,.']", "", str(value).strip())
-            example = digits if re.fullmatch(r"\d+", digits) else "5000"
+            grouped = re.fullmatch(r"\d{1,3}([ ,.']\d{3})+", str(value).strip())
+            example = re.sub(r"\D", "", grouped[0]) if grouped else "5000"
             self.fail(f"{value!r} is not a whole number such as {example}.", param, ctx)
 
 

@@ -115,7 +115,10 @@ void stay_near(const PointsRef& points, const Points& from, const Eigen::VectorX
 }
 
 /// Halves the step of the vertices of spoilt faces until there are none; after a few halvings they stay put.
-Points take_safe_step(const Points& from, const Points& to, const FacesRef& faces, const RefinementOptions& options) {
+///
+/// @param first  the faces' area vectors before the first round: over all rounds, none may turn over
+Points take_safe_step(const Points& first, const Points& from, const Points& to, const FacesRef& faces,
+                      const RefinementOptions& options) {
   constexpr int halvings = 5;
   const Points before = area_vectors(from, faces);
   const double least_cosine = std::cos(options.max_turn * std::numbers::pi / 180);
@@ -127,7 +130,8 @@ Points take_safe_step(const Points& from, const Points& to, const FacesRef& face
     for (Index f = 0; f < faces.rows(); ++f) {
       const double old_area = before.row(f).norm(), new_area = after.row(f).norm();
       const bool turned = before.row(f).dot(after.row(f)) < least_cosine * old_area * new_area;
-      if (!turned && new_area >= options.min_area * old_area) continue;
+      const bool turned_over = first.row(f).dot(after.row(f)) < 0;
+      if (!turned && !turned_over && new_area >= options.min_area * old_area) continue;
       for (Index v : faces.row(f)) {
         spoilt = spoilt || step(v) > 0;
         step(v) = round < halvings ? step(v) / 2 : 0;
@@ -153,6 +157,7 @@ Points refine_vertices(const PointsRef& vertices, const FacesRef& faces, const P
   require(options.rounds >= 0 && options.pull > 0 && options.max_gap > 0,
           "rounds must be 0 or more, pull and max_gap positive");
   Points refined = vertices;
+  const Points first = area_vectors(vertices, faces);
   const Eigen::VectorXd gap = options.max_gap * sizes(refined, faces);
   for (Index round = 0; round < options.rounds; ++round) {
     report(progress, static_cast<double>(round) / static_cast<double>(options.rounds));
@@ -161,7 +166,7 @@ Points refine_vertices(const PointsRef& vertices, const FacesRef& faces, const P
     for (Index v = 0; v < fixed.size(); ++v) {
       if (fixed(v)) fitted.row(v) = refined.row(v);
     }
-    refined = take_safe_step(refined, fitted, faces, options);
+    refined = take_safe_step(first, refined, fitted, faces, options);
   }
   report(progress, 1);
   return refined;

@@ -78,8 +78,8 @@ def test_an_unknown_key_names_the_nearest(chosen: Chosen) -> None:
 @pytest.mark.parametrize(
     ("config", "reason"),
     [
-        ("vertices = 'many'", "not a valid integer"),
-        ("vertices = 10.5", "not a valid integer"),
+        ("vertices = 'many'", "not a whole number"),
+        ("vertices = 10.5", "not a whole number such as 5000"),
         ("vertices = 3", "at least 4"),
         ("refine = 'perhaps'", "perhaps"),
         ("vertices", "not a TOML file"),
