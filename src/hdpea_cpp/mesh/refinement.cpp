@@ -101,6 +101,17 @@ Eigen::VectorXd distances(const PointsRef& points, const Points& vertices) {
   return distances;
 }
 
+/// Of each face the sum of the normals of the points nearest to its corners.
+Points normals_at_corners(const PointsRef& vertices, const FacesRef& faces, const PointsRef& points,
+                          const PointsRef& normals) {
+  const Neighbors nearest = nearest_neighbors(points, vertices, 1);
+  Points sums = Points::Zero(faces.rows(), 3);
+  for (Index f = 0; f < faces.rows(); ++f) {
+    for (const Index v : faces.row(f)) sums.row(f) += normals.row(nearest(v, 0));
+  }
+  return sums;
+}
+
 /// Halves the step of the vertices that leave the cloud: where few points hold one, least squares may send it far out
 /// along the planes of its faces. Farther than a gap between points, and than it was, is too far.
 void stay_near(const PointsRef& points, const Points& from, const Eigen::VectorXd& gap, Points& to) {
@@ -116,8 +127,8 @@ void stay_near(const PointsRef& points, const Points& from, const Eigen::VectorX
 
 /// Halves the step of the vertices of spoilt faces until there are none; after a few halvings they stay put.
 ///
-/// @param first  the faces' area vectors before the first round: over all rounds, none may turn over
-Points take_safe_step(const Points& first, const Points& from, const Points& to, const FacesRef& faces,
+/// @param outward  (f, 3) the sum of the points' normals at the corners: no face may turn against it
+Points take_safe_step(const Points& outward, const Points& from, const Points& to, const FacesRef& faces,
                       const RefinementOptions& options) {
   constexpr int halvings = 5;
   const Points before = area_vectors(from, faces);
@@ -130,7 +141,7 @@ Points take_safe_step(const Points& first, const Points& from, const Points& to,
     for (Index f = 0; f < faces.rows(); ++f) {
       const double old_area = before.row(f).norm(), new_area = after.row(f).norm();
       const bool turned = before.row(f).dot(after.row(f)) < least_cosine * old_area * new_area;
-      const bool turned_over = first.row(f).dot(after.row(f)) < 0;
+      const bool turned_over = outward.row(f).dot(before.row(f)) >= 0 && outward.row(f).dot(after.row(f)) < 0;
       if (!turned && !turned_over && new_area >= options.min_area * old_area) continue;
       for (Index v : faces.row(f)) {
         spoilt = spoilt || step(v) > 0;
@@ -157,7 +168,7 @@ Points refine_vertices(const PointsRef& vertices, const FacesRef& faces, const P
   require(options.rounds >= 0 && options.pull > 0 && options.max_gap > 0,
           "rounds must be 0 or more, pull and max_gap positive");
   Points refined = vertices;
-  const Points first = area_vectors(vertices, faces);
+  const Points outward = normals_at_corners(vertices, faces, points, normals);
   const Eigen::VectorXd gap = options.max_gap * sizes(refined, faces);
   for (Index round = 0; round < options.rounds; ++round) {
     report(progress, static_cast<double>(round) / static_cast<double>(options.rounds));
@@ -166,7 +177,7 @@ Points refine_vertices(const PointsRef& vertices, const FacesRef& faces, const P
     for (Index v = 0; v < fixed.size(); ++v) {
       if (fixed(v)) fitted.row(v) = refined.row(v);
     }
-    refined = take_safe_step(first, refined, fitted, faces, options);
+    refined = take_safe_step(outward, refined, fitted, faces, options);
   }
   report(progress, 1);
   return refined;
