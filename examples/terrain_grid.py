@@ -48,6 +48,17 @@ def heights_of(
     return grid
 
 
+def cropped(
+    grid: NDArray[np.float64], low: NDArray[np.float64], cell: float
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Return a grid, and its corner, without the rows and columns at its rim in which nothing is known."""
+    known = np.argwhere(np.isfinite(grid))
+    if not len(known):
+        raise click.ClickException("No centre of a cell lies on the mesh: choose smaller cells.")
+    first, last = known.min(axis=0), known.max(axis=0) + 1
+    return grid[first[0] : last[0], first[1] : last[1]], low + cell * first[::-1]
+
+
 @click.command()
 @click.argument("mesh", type=click.Path(path_type=Path))
 @click.argument("out", type=click.Path(path_type=Path))
@@ -58,12 +69,12 @@ def main(mesh: Path, out: Path, cell: float) -> None:
     # Corners are multiples of the cell, so that the grids of neighbouring tiles fit together.
     low = cell * np.floor(vertices[:, :2].min(axis=0) / cell)
     columns, rows = np.ceil((vertices[:, :2].max(axis=0) - low) / cell).astype(int)
-    grid = np.nan_to_num(heights_of(vertices, faces, low, (rows, columns), cell), nan=UNKNOWN)
+    grid, low = cropped(heights_of(vertices, faces, low, (rows, columns), cell), low, cell)
     corner = f"xllcorner {low[0]}\nyllcorner {low[1]}"
-    head = f"ncols {columns}\nnrows {rows}\n{corner}\ncellsize {cell}\nnodata_value {UNKNOWN}"
+    head = f"ncols {grid.shape[1]}\nnrows {len(grid)}\n{corner}\ncellsize {cell}\nnodata_value {UNKNOWN}"
     # From north to south.
-    np.savetxt(out, grid[::-1], fmt="%.4f", header=head, comments="")
-    print(f"{len(faces)} faces -> {rows} x {columns} cells, {np.mean(grid != UNKNOWN):.0%} of them known")
+    np.savetxt(out, np.nan_to_num(grid[::-1], nan=UNKNOWN), fmt="%.4f", header=head, comments="")
+    print(f"{len(faces)} faces -> {len(grid)} x {grid.shape[1]} cells, {np.isfinite(grid).mean():.0%} of them known")
 
 
 if __name__ == "__main__":

@@ -196,7 +196,7 @@ def reconstruct(
         # Before any piece is turned, as its points are not.
         carried = _carried(mesh, surface, cloud, clock)
         texture_of_points = _texture(mesh, surface, cloud, options.texture, clock)
-        levels = _levels(mesh, surface, prepared.oriented.computed_sides, options, cloud, journal)
+        levels = _levels(mesh, prepared, options, cloud, journal)
         faced = facing_out(mesh) if prepared.oriented.computed_sides else FacedMesh(mesh)
         mesh = faced.mesh
         wanted = budgeted.vertices_of(shown) if options.meshing.error is None else len(mesh.vertices_in_unit)
@@ -255,18 +255,18 @@ def _measured(
 
 
 def _levels(
-    mesh: Mesh, surface: Surface, computed_sides: bool, options: Options, cloud: PointCloud, journal: Journal
+    mesh: Mesh, prepared: Preparation, options: Options, cloud: PointCloud, journal: Journal
 ) -> tuple[Level, ...]:
     """Return the coarser levels of a mesh; a stage, and in the journal, only where there are any."""
     if options.meshing.lod == 1:
         return ()
-    made = list[Level]()
+    made, surface = list[Level](), prepared.surface
     with journal.clock.stage("levels"):
         for each in coarser_levels(mesh, surface, options):
-            faces = (facing_out(each).mesh if computed_sides else each).faces
+            faces = (facing_out(each).mesh if prepared.oriented.computed_sides else each).faces
             attributes = vertex_attributes(each, surface, cloud.attributes)
             made.append(Level(surface.frame.to_world(each.vertices_in_unit), faces, attributes))
-            journal.levels.append(level_facts(each, surface))
+            journal.levels.append(level_facts(each, prepared))
     return tuple(made)
 
 

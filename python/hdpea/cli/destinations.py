@@ -47,6 +47,9 @@ def destinations(files: Sequence[str], out_dir: Path | None, merge: bool, mesh_f
         return _all_in_folder(files, out_dir, mesh_format)
     if len(files) == 1:
         return [_in_folder(files[0], Path(files[0]).parent, mesh_format)]
+    word = next((each for each in files if "." not in each and not Path(each).exists() and each != "-"), None)
+    if len(files) > 2 and word is not None:
+        raise UsageError(f"There is no file {word}.", f"If it is an option, it begins with two dashes: --{word}")
     if len(files) > 2 and not merge:
         raise UsageError(f"There are {len(files)} files: it is not clear which are clouds.", _SEVERAL)
     *sources, last = files
@@ -64,9 +67,11 @@ def destinations(files: Sequence[str], out_dir: Path | None, merge: bool, mesh_f
 
 def _hint_on(sources: Sequence[str], scan: Path) -> str:
     """Return what to do where a scan is named in the place of a mesh."""
-    first = sources[0]
-    if Path(first).suffix[1:].lower() in FORMATS and not Path(first).exists():
-        return f"The cloud comes first: hdpea reconstruct {scan} {first}"
+    first, *others = sources
+    if not others and Path(first).suffix[1:].lower() in FORMATS:
+        return f"The cloud comes first, then the mesh: {scan} {first}" + (
+            f". {_SEVERAL}" if Path(first).exists() else ""
+        )
     return f"Name a mesh: {scan.stem}.{FORMATS[0]}, say. {_SEVERAL}"
 
 

@@ -10,43 +10,57 @@ from typing import TYPE_CHECKING
 
 import click
 
-from hdpea.cli.parameters import GroupedCommand
+from hdpea.cli.parameters import GroupedCommand, GroupedOption, setting_options
+from hdpea.cli.tiles import MemoryType, Resources
 
 if TYPE_CHECKING:
+    from hdpea.options.classes import Classes
     from hdpea.report.inspection import CloudFacts
 
 EPILOG = """\b
 Examples:
   hdpea info scan.ply
   hdpea info scan.ply --json
+  hdpea info flight.laz --classes 2,6 --memory 4GB
 """
 
 
 @click.command(cls=GroupedCommand, epilog=EPILOG, no_args_is_help=True, short_help="Say what is in a point cloud.")
 @click.argument("source", metavar="IN", type=click.Path())
-@click.option("--json", "as_json", is_flag=True, help="print the facts as JSON")
-def command(source: str, as_json: bool) -> None:
+@click.option("--json", "as_json", cls=GroupedOption, is_flag=True, help="print the facts as JSON")
+@click.option(
+    "--memory",
+    cls=GroupedOption,
+    type=MemoryType(),
+    help="memory that a run may take, as 4GB; default: half of what the machine has",
+)
+@setting_options(also=["classes"], heading="General")
+def command(source: str, as_json: bool, memory: float | None, classes: Classes | None) -> None:
     """Say what is in the point cloud IN, and what making a mesh of it would take.
 
     That includes what a run would leave out: points that lie on no surface, or crowd on scan lines.
     Lengths are in the units of the file. IN is as for reconstruct. Of a million points and more in
     LAS, LAZ, COPC or binary PLY a sample is looked at.
     """
-    facts = _facts(source)
-    click.echo(json.dumps(asdict(facts), indent=2) if as_json else _describe(facts))
+    facts = _facts(source, classes)
+    click.echo(json.dumps(asdict(facts), indent=2) if as_json else _describe(facts, Resources(memory)))
 
 
-def _facts(source: str) -> CloudFacts:
+def _facts(source: str, classes: Classes | None) -> CloudFacts:
+    from hdpea.frontend.classes import of_classes, stream_of_classes
     from hdpea.reading import read_points
     from hdpea.reading.streaming import stream_of
     from hdpea.report.inspection import inspect
     from hdpea.report.sampling import MOST_WHOLE, inspect_stream
 
     stream = stream_of(Path(source))
-    return inspect_stream(stream) if stream is not None and stream.count > MOST_WHOLE else inspect(read_points(source))
+    if stream is None or stream.count <= MOST_WHOLE:
+        cloud = read_points(source)
+        return inspect(cloud if classes is None else of_classes(cloud, classes))
+    return inspect_stream(stream if classes is None else stream_of_classes(stream, classes))
 
 
-def _describe(facts: CloudFacts) -> str:
+def _describe(facts: CloudFacts, resources: Resources) -> str:
     extent = [high - low for low, high in zip(facts.low, facts.high, strict=True)]
     rows = {
         "format": facts.format,
@@ -59,7 +73,7 @@ def _describe(facts: CloudFacts) -> str:
         "spacing": _spacing(facts),
         "normals": _normals(facts),
         "crs": facts.crs or "not told by the file",
-        "a run needs": _needs(facts),
+        "a run needs": _needs(facts, resources),
     }
     return "\n".join([*(f"{name:<12}{value}" for name, value in rows.items() if value), *facts.notes])
 
@@ -97,7 +111,7 @@ def _normals(facts: CloudFacts) -> str:
     return f"{usable:,} usable, {facts.normal_agreement:.1%} of neighbours agree on the side: {fate}"
 
 
-def _needs(facts: CloudFacts) -> str:
+def _needs(facts: CloudFacts, resources: Resources) -> str:
     from hdpea.report.cost import PEAK_BYTES, TILED_DISK_BYTES, TILED_SECONDS
     from hdpea.surface.surface import MIN_POINTS
     from hdpea.tiling.plan import TILE_POINTS
@@ -106,17 +120,11 @@ def _needs(facts: CloudFacts) -> str:
     if points < MIN_POINTS:
         return f"at least {MIN_POINTS} points"
     cost = f"about {facts.estimated_seconds:.0f} s and {facts.estimated_peak_bytes / 1e9:.1f} GB"
-    if _is_tiled(facts):
+    if facts.estimated_peak_bytes > resources.bytes():
         each = PEAK_BYTES.of(TILE_POINTS, round(TILE_POINTS * facts.default_vertices / points))
         return (
             f"about {TILED_SECONDS * points:.0f} s in tiles with --jobs 2, {each / 1e9:.1f} GB in each process and "
             f"{TILED_DISK_BYTES * points / 1e9:.1f} GB of the disk, for {facts.default_vertices:,} vertices; "
             f"in one piece {cost}. --error and colours are for one piece: cut a larger cloud yourself"
         )
-    return f"{cost} for {facts.default_vertices:,} vertices, on two cores"
-
-
-def _is_tiled(facts: CloudFacts) -> bool:
-    from hdpea.cli.tiles import Resources
-
-    return facts.estimated_peak_bytes > Resources().bytes()
+    return f"{cost} for {facts.default_vertices:,} vertices, on two idle cores"

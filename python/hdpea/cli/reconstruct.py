@@ -75,7 +75,7 @@ Of several meshes, the gravest: 1, 4, 3, 2, then 5.
     "--format",
     "mesh_format",
     cls=GroupedOption,
-    type=click.Choice(FORMATS),
+    type=click.Choice(FORMATS, case_sensitive=False),
     help="of a mesh whose name does not say it: that of --out-dir, of no OUT (default: ply), or -",
 )
 @click.option("--report", cls=GroupedOption, type=PATH, help="write what was chosen and measured, as JSON")

@@ -62,7 +62,7 @@ def write_page(
     sight
         (3,), from where the surface was seen, as ``mean_sight`` returns it.
     up
-        The axis that is up, by its name; default: the one that the first shape shows.
+        The axis that is up, by its name; default: the one that the first mesh shows, or else the first shape.
 
     Raises
     ------
@@ -72,7 +72,7 @@ def write_page(
     check_output(path, PAGE_FORMATS)
     shapes = with_common_ranges(tuple(shapes))
     box = Box(shapes)
-    view = _view(shapes[0], sight, up)
+    view = _view(next((each for each in shapes if isinstance(each, MeshShape)), shapes[0]), sight, up)
     axis = abs(view[1]).argmax()
     scene = {
         "shapes": [encoded_shape(each, box) for each in shapes],

@@ -64,6 +64,15 @@ edgesShown.checked = asked.has("edges") ? asked.get("edges") === "1" : page.edge
 if (asked.has("points")) pointsShown.checked = asked.get("points") === "1";
 for (const each of [first, second, coloring, edgesShown, pointsShown]) each.addEventListener("change", update);
 document.getElementById("legend").style.setProperty("--ramp", page.ramp.map((each) => `rgb(${each})`).join(","));
-document.querySelector("details").open = window.innerWidth > 700 && asked.get("panel") !== "0";
+
+const panel = document.querySelector("details");
+function makeRoom() {
+  document.documentElement.classList.toggle("beside", panel.open && !panel.parentElement.hidden);
+  redraw();
+}
+panel.parentElement.hidden = asked.get("panel") === "0";
+panel.open = window.innerWidth > 700;
+panel.addEventListener("toggle", makeRoom);
+makeRoom();
 reset();
 update();

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hdpea.errors import UnreadableInput
-from hdpea.reading.tables import MEND_LINE, is_number
+from hdpea.reading.tables import BadLine, is_number
 
 UNKNOWN = frozenset({"", "na", "n/a", "null", "none", "-", "nan"})
 """Fields, in lower case, where there is no number."""
@@ -67,8 +67,10 @@ def parse_columns(lines: Sequence[str], separator: str, first_line: int) -> Colu
 
     Raises
     ------
+    BadLine
+        The first that has more or fewer fields, or a word among numbers.
     UnreadableInput
-        Naming the first line that has more or fewer fields, or a word among numbers.
+        If there are fewer than three columns of numbers.
     """
     read = csv.reader(lines, delimiter=separator) if separator else map(str.split, lines)
     rows = [(number, [each.strip(" \"'") for each in row]) for number, row in enumerate(read, first_line) if row]
@@ -76,7 +78,7 @@ def parse_columns(lines: Sequence[str], separator: str, first_line: int) -> Colu
     width = len(rows[0][1])
     for number, row in rows:
         if len(row) != width:
-            raise _bad_line(number, row, separator, f"{width} fields are expected")
+            raise BadLine(number, (separator or " ").join(row), f"where {width} fields are expected")
     found, places, unknown = [], [], 0
     for place in range(width):
         fields = [row[place] for _, row in rows]
@@ -90,15 +92,12 @@ def parse_columns(lines: Sequence[str], separator: str, first_line: int) -> Colu
             unknown += sum(each == "" for each in fields)
             bad = next((i for i, each in enumerate(filled) if not is_number(each)), None)
             if bad is not None:
-                raise _bad_line(*rows[bad], separator, f"field {place + 1} should be a number") from None
+                number, row = rows[bad]
+                fault = f"where field {place + 1}, {fields[bad]!r}, is no number"
+                raise BadLine(number, (separator or " ").join(row), fault) from None
             column = np.array(filled, np.float64)
         found.append(column)
         places.append(place)
     if len(found) < 3:
         raise UnreadableInput(f"it has {len(found)} numbers per line, where x, y and z are needed.")
     return Columns(np.stack(found, axis=1), places, width, unknown)
-
-
-def _bad_line(number: int, row: list[str], separator: str, expected: str) -> UnreadableInput:
-    line = (separator or " ").join(row)[:40]
-    return UnreadableInput(f"line {number} reads {line!r}, where {expected}.", MEND_LINE)

@@ -89,7 +89,7 @@ FOREIGN = (
      "gdal_translate -of XYZ dem.grd dem.xyz"),
     (re.compile(rb"II\*\0|MM\0\*"), "a TIFF, an image or heights in rows", "gdal_translate -of XYZ dem.tif dem.xyz"),
     (re.compile(rb"glTF"), "a glTF file", "assimp export scan.glb scan.ply"),
-    (re.compile(rb"solid\b"), "an STL file", FROM_STL),
+    (re.compile(rb"solid\b"), "an STL file, a mesh", FROM_STL),
     (re.compile(rb"# vtk DataFile|<\?xml[^>]*>\s*<VTKFile|<VTKFile"), "a VTK file", "meshio convert scan.vtk scan.ply"),
     (re.compile(rb"#VRML|<\?xml[^>]*>\s*(?:<!DOCTYPE[^>]*>\s*)?<X3D"), "a VRML or X3D file",
      "meshlabserver -i scan.wrl -o scan.ply"),
@@ -137,7 +137,7 @@ def parse_points(data: bytes, extension: str = "") -> PointCloud:
     if not data or data.isspace():
         raise UnreadableInput("it is empty.", "Save or export it again; it has no points yet.")
     if is_binary_stl(data):
-        raise UnreadableInput("it is an STL file.", f"Convert it: {FROM_STL}")
+        raise UnreadableInput("it is an STL file, a mesh.", f"Give the cloud, or convert it: {FROM_STL}")
     for prefix, what, command in FOREIGN:
         if prefix.match(data):
             raise UnreadableInput(f"it is {what}.", f"Convert it: {command}")

@@ -14,8 +14,20 @@ from hdpea.errors import UnreadableInput
 UNIT_SHARE = 0.95
 """Share of rows of length 1 (or 0) from which three columns are taken for normals."""
 
+MOST_QUOTED = 60
+"""Characters of a line that an error quotes."""
 
-MEND_LINE = "Correct the line or delete it; put # before lines that are comments."
+
+class BadLine(UnreadableInput):
+    """A line of a table is not like the others: its number in the file, the line, and what is wrong with it."""
+
+    usual_hint = "Correct the line or delete it; put # before lines that are comments."
+
+    def __init__(self, number: int, line: str, fault: str) -> None:
+        content = line.strip()
+        quoted = content if len(content) <= MOST_QUOTED else f"{content[:MOST_QUOTED]}..."
+        super().__init__(f"line {number} reads {quoted!r}, {fault}.")
+        self.number, self.fault = number, fault
 
 
 def parse_table(lines: Sequence[str], first_line: int = 1, width: int | None = None) -> NDArray[np.float64]:
@@ -32,8 +44,8 @@ def parse_table(lines: Sequence[str], first_line: int = 1, width: int | None = N
 
     Raises
     ------
-    UnreadableInput
-        Naming the first line that does not hold `width` numbers.
+    BadLine
+        The first that does not hold `width` numbers.
     """
     first = next((line for line in lines if line.strip()), "")
     expected = width or len(first.split())
@@ -51,11 +63,11 @@ def parse_table(lines: Sequence[str], first_line: int = 1, width: int | None = N
 def _first_bad(lines: Sequence[str], first_line: int, width: int) -> UnreadableInput:
     for number, line in enumerate(lines, first_line):
         tokens = line.split()
-        if tokens and not (len(tokens) == width and all(map(is_number, tokens))):
-            return UnreadableInput(
-                f"line {number} reads {line.strip()[:40]!r}, where {width} numbers are expected.",
-                MEND_LINE,
-            )
+        if tokens and len(tokens) != width:
+            return BadLine(number, line, f"where {width} numbers are expected")
+        bad = next((token for token in tokens if not is_number(token)), None)
+        if bad is not None:
+            return BadLine(number, line, f"where {bad!r} is no number")
     return UnreadableInput("it is not a table of numbers.")
 
 

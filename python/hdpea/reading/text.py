@@ -11,7 +11,7 @@ from hdpea.errors import UnreadableInput
 from hdpea.reading.cloud import PointCloud, from_columns
 from hdpea.reading.columns import Columns, parse_columns
 from hdpea.reading.names import coordinates_among, plain_name
-from hdpea.reading.tables import comma_is_decimal, is_number, name_columns, parse_table
+from hdpea.reading.tables import BadLine, comma_is_decimal, is_number, name_columns, parse_table
 
 _COMMENT = re.compile(r"(#|//|%)[^\n]*")
 _UNREAD = re.compile(r"(?:\s+|(?:#|//|%)[^\n]*(?:\n|$))++")
@@ -24,6 +24,8 @@ UTF16 = (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)
 """What a text in UTF-16 begins with, as PowerShell writes it."""
 MOST_HEADER_LINES = 1_000
 """Lines before the first point, comments and blank ones aside, after which a text is no table."""
+_FRACTION = re.compile(r",0\d")
+"""Digits after a comma that begin with a zero, as no number does."""
 _SEPARATORS = str.maketrans(",;\t", "   ")
 _PTS = {4: ["intensity"], 6: ["red", "green", "blue"], 7: ["intensity", "red", "green", "blue"]}
 """What follows x, y and z in a PTS file of so many columns."""
@@ -61,7 +63,13 @@ def parse_text(data: bytes, normals_expected: bool = False) -> PointCloud:
         body = _COMMENT.sub("", body)
     if start.separator in {";", "\t"} or comma_is_decimal(start.line):
         body = body.replace(",", ".")
-    columns = _columns(body, start)
+    elif start.separator == "," and "." not in body and _FRACTION.search(body):
+        mend = "Write decimal points, or semicolons between the numbers."
+        raise UnreadableInput("commas are its decimal signs, and between its numbers, too.", mend)
+    try:
+        columns = _columns(body, start)
+    except BadLine as error:  # in which commas may have become points
+        raise BadLine(error.number, text.splitlines()[error.number - 1], error.fault) from None
     if len(columns.table) < announced:
         cut = "It may have been cut off while being copied."
         raise UnreadableInput(f"it ends after {len(columns.table)} of its {announced} points.", cut)

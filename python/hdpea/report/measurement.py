@@ -20,7 +20,6 @@ from hdpea.report.agreement import Agreement, agreement_of, distances_to
 from hdpea.report.heights import height_differences, is_height_field
 from hdpea.report.report import Distances, HeightDifferences, LevelFacts, MeshFacts
 from hdpea.surface.preparation import Preparation
-from hdpea.surface.surface import Surface
 
 HARDLY_SHOWN = 0.01
 """Root mean square distance of the points to the mesh, in diagonals, from which on a mesh is said to be too coarse.
@@ -115,8 +114,8 @@ def coarseness(distances: Distances, diagonal: float, options: MeshingOptions) -
         )
 
 
-def level_facts(mesh: Mesh, surface: Surface) -> LevelFacts:
-    """Check a coarser level of a mesh, and measure it against the points.
+def level_facts(mesh: Mesh, prepared: Preparation) -> LevelFacts:
+    """Check a coarser level of a mesh, and measure it against the points as the mesh itself is.
 
     Raises
     ------
@@ -124,8 +123,12 @@ def level_facts(mesh: Mesh, surface: Surface) -> LevelFacts:
         If it is not manifold and oriented.
     """
     facts = mesh_facts(mesh)
-    reached = ErrorBound(surface, 0.0).reached(mesh).in_world(surface.frame.diagonal)
-    return LevelFacts(facts.vertices, facts.faces, reached.larger)
+    given, embedded = prepared.oriented.surface, prepared.surface
+    distances, diagonal = distances_to(mesh, given), given.frame.diagonal
+    of_embedded = distances if embedded is given else distances_to(mesh, embedded)
+    reached = ErrorBound(embedded, 0.0).reached(mesh, distances=of_embedded).in_world(diagonal)
+    rms = Distances.of(distances * diagonal, given.spacing * diagonal).rms
+    return LevelFacts(facts.vertices, facts.faces, rms, reached.larger)
 
 
 def missed_targets(mesh: Mesh, facts: MeshFacts, options: MeshingOptions) -> Iterator[str]:

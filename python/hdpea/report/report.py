@@ -38,10 +38,15 @@ class MeshFacts:
 
 @dataclass(frozen=True)
 class LevelFacts:
-    """What a coarser level of the mesh is; ``error`` is its largest distance from the points, both ways."""
+    """What a coarser level of the mesh is, and how far it is from the points, in world units.
+
+    ``rms`` is the root mean square distance of the points as they were given, ``error`` the largest both ways, after
+    any denoising: what is told of the mesh itself.
+    """
 
     vertices: int
     faces: int
+    rms: float
     error: float
 
 
@@ -78,9 +83,13 @@ class Distances:
 
 @dataclass(frozen=True)
 class HeightDifferences:
-    """How far the points are above or below the mesh, along z and in world units; ``points`` are as many as are."""
+    """How far the points are above or below the mesh, along z and in world units.
+
+    ``points`` are as many as have the mesh above or below them, ``others`` as many as have not.
+    """
 
     points: int
+    others: int
     rms: float
     percentile_95: float
     max: float
@@ -92,7 +101,7 @@ class HeightDifferences:
         if not len(known):
             return None
         found = Distances.of(known, 0.0)
-        return cls(len(known), found.rms, found.percentile_95, found.max)
+        return cls(len(known), len(differences) - len(known), found.rms, found.percentile_95, found.max)
 
 
 @dataclass(kw_only=True)

@@ -25,19 +25,20 @@ def inspect_stream(stream: PointStream) -> CloudFacts:
     random = np.random.default_rng(0)
     share = min(SAMPLED / stream.count, 1.0)
     low, high = np.full(3, np.inf), np.full(3, -np.inf)
-    pieces = list[PointCloud]()
+    pieces, total = list[PointCloud](), 0
     for chunk in stream.chunks():
+        total += len(chunk.points)
         finite = chunk.points[np.isfinite(chunk.points).all(axis=1)]
         if len(finite):
             low, high = np.minimum(low, finite.min(axis=0)), np.maximum(high, finite.max(axis=0))
         pieces.append(chunk.at(np.flatnonzero(random.random(len(chunk.points)) < share)))
     sample = _joined(pieces, stream)
     facts = inspect(cleaned(sample))
-    times = stream.count / len(sample.points)
+    times = total / len(sample.points)
     counts = {name: round(times * count) for name, count in facts.counts.items()}
     vertices = round(times * facts.default_vertices)
     kept = counts["points"] - counts["dropped_strays"] - counts["dropped_on_lines"]
-    looked_at = f"By {len(sample.points):,} random points of {stream.count:,}"
+    looked_at = f"By {len(sample.points):,} random points of {total:,}"
     note = f"{looked_at}: counts and spacings are estimates; the lines below are of these."
     return replace(
         facts,

@@ -27,9 +27,11 @@ def summarize(report: Report, where: str, verbose: bool = False) -> str:
 def outcome(report: Report) -> Iterator[str]:
     """Yield what came out, and how good it is; a line each."""
     yield _mesh(report.mesh) + _filled(report.meshing.get("area_filled", 0))
-    yield _distances(report.distances) + _along_z(report.along_z) + _error(report.error, bool(report.levels))
+    error = _error(report.error, bool(report.levels))
+    yield _distances(report.distances) + _along_z(report.along_z) + error + _moved(report.error)
     for number, level in enumerate(report.levels, start=1):
-        yield f"level {number}: {level.vertices:,} vertices, {level.faces:,} faces, error {level.error:.3g}"
+        size = f"{level.vertices:,} vertices, {level.faces:,} faces"
+        yield f"level {number}: {size}, rms {level.rms:.3g}, error {level.error:.3g}"
 
 
 def describe(choice: Choice) -> str:
@@ -70,7 +72,10 @@ def _distances(distances: Distances) -> str:
 
 
 def _along_z(differences: HeightDifferences | None) -> str:
-    return "" if differences is None else f"; along z: rms {differences.rms:.3g}, max {differences.max:.3g}"
+    if differences is None:
+        return ""
+    others = f" ({_count(differences.others, 'point', 'points')} beside it)" if differences.others else ""
+    return f"; along z: rms {differences.rms:.3g}, max {differences.max:.3g}{others}"
 
 
 def _error(error: AchievedError, compared: bool) -> str:
@@ -78,5 +83,9 @@ def _error(error: AchievedError, compared: bool) -> str:
     if error.asked is None and not compared:
         return ""
     asked = "" if error.asked is None else f" of {error.asked:.3g} asked for"
-    noise = f", after points were moved by up to {error.moved_by_denoising:.3g}" if error.moved_by_denoising else ""
-    return f"; error, both ways: {error.larger:.3g}{asked}{noise}"
+    return f"; error, both ways: {error.larger:.3g}{asked}"
+
+
+def _moved(error: AchievedError) -> str:
+    """Return by how much points may be farther off than the error says; denoising softens edges, too."""
+    return f"; points were denoised, by up to {error.moved_by_denoising:.3g}" if error.moved_by_denoising else ""

@@ -63,7 +63,8 @@ def test_a_mesh_that_hardly_shows_the_shape_is_told(
 @pytest.mark.parametrize(
     ("typed", "meant"),
     [
-        (["a.stl", "{scan}"], "The cloud comes first: hdpea reconstruct {scan} a.stl"),
+        (["a.stl", "{scan}"], "The cloud comes first, then the mesh: {scan} a.stl"),
+        (["{scan}", "mesh.stl", "watertight"], "it begins with two dashes: --watertight"),
         (["{scan}", "mesh"], "mesh.obj, say"),
         (["{scan}", "mesh.gltf"], "mesh.glb, say"),
     ],

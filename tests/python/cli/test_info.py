@@ -54,6 +54,19 @@ def test_info_says_that_points_are_too_few(tmp_path: Path, capsys: Capture) -> N
     assert "a run needs at least 16 points" in capsys.readouterr().out
 
 
+def test_info_of_some_classes_in_little_memory(tmp_path: Path, capsys: Capture) -> None:
+    points = sphere_points(600)
+    classes = np.repeat([[2.0], [5.0]], 300, axis=0)
+    np.savetxt(tmp_path / "scan.csv", np.hstack([points, classes]), delimiter=",", header="x,y,z,classification")
+    asked = ["info", str(tmp_path / "scan.csv"), "--classes", "2"]
+    assert run(asked) == 0
+    told = capsys.readouterr().out
+    assert "300 of 600 points" in told
+    assert "in one piece" not in told
+    assert run([*asked, "--memory", "100MB"]) == 0
+    assert "in one piece" in capsys.readouterr().out
+
+
 def test_info_as_json(tmp_path: Path, capsys: Capture) -> None:
     np.save(tmp_path / "scan.npy", 1e7 + sphere_points(500))
     assert run(["info", str(tmp_path / "scan.npy"), "--json"]) == 0

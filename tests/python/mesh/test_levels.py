@@ -23,6 +23,8 @@ def test_each_level_has_half_the_faces_of_the_one_before(tmp_path: Path) -> None
     made = levels_of(MeshingOptions(vertices=200, lod=3))
     assert [len(level.faces) for level in made.levels] == [200, 100]
     assert [level.faces for level in made.report.levels] == [200, 100]
+    distances = [made.report.distances.rms, *(level.rms for level in made.report.levels)]
+    assert distances == sorted(distances)
     made.write(tmp_path / "mesh.ply")
     assert {path.name for path in tmp_path.glob("*.ply")} == {"mesh.ply", "mesh.lod1.ply", "mesh.lod2.ply"}
 

@@ -30,6 +30,15 @@ def sphere_with_points(shift: float = 0.0) -> list[Shape]:
     return [mesh_shape("mesh", vertices, faces, points), point_shape("points", points, (vertices, faces))]
 
 
+def test_a_cloud_and_its_mesh_stand_upright_in_either_order(tmp_path: Path) -> None:
+    shapes = sphere_with_points()
+    stretched = [replace(shapes[0], vertices=shapes[0].vertices * [1, 3, 1]), shapes[1]]
+    for name, order in ("there.html", stretched), ("back.html", stretched[::-1]):
+        write_page(tmp_path / name, "page", order)
+    there, back = scene_of(tmp_path / "there.html"), scene_of(tmp_path / "back.html")
+    assert (there["up"], there["eye"]) == (back["up"], back["eye"])
+
+
 def scene_of(page: Path) -> dict[str, Any]:
     found = re.search(r"^const page = (.*);$", page.read_text(), re.MULTILINE)
     assert found
