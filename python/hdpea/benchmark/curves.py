@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Plots of error against the number of vertices, one curve for each method, as SVG."""
+"""Plots of error against the size of a mesh, one curve for each method, as SVG."""
 
 from __future__ import annotations
 
@@ -14,11 +14,11 @@ COLORS = ("#1d4ed8", "#c2410c", "#15803d", "#7e22ce", "#be123c", "#0e7490", "#a1
 FONT = 'font-family="sans-serif" font-size="12"'
 
 Curve = Sequence[tuple[float, float]]
-"""Vertices and error, by size."""
+"""Size, in vertices or triangles, and error."""
 
 
-def draw_curves(title: str, unit: str, curves: Mapping[str, Curve]) -> str:
-    """Return a plot of curves by name on logarithmic axes, as SVG: vertices to the right, error upwards.
+def draw_curves(title: str, unit: str, curves: Mapping[str, Curve], size: str = "vertices") -> str:
+    """Return a plot of curves by name on logarithmic axes, as SVG: size to the right, error upwards.
 
     Parameters
     ----------
@@ -26,20 +26,22 @@ def draw_curves(title: str, unit: str, curves: Mapping[str, Curve]) -> str:
         Label of the vertical axis.
     curves
         Positive numbers; a name without points is left out.
+    size
+        Label of the horizontal axis.
     """
     shown = {name: sorted(curve) for name, curve in curves.items() if curve}
     points = np.log10(np.array([point for curve in shown.values() for point in curve]))
     low, high = points.min(axis=0) - 0.05, points.max(axis=0) + 0.05
 
-    def place(vertices: float, error: float) -> tuple[float, float]:
-        share = (np.log10([vertices, error]) - low) / (high - low)
+    def place(size: float, error: float) -> tuple[float, float]:
+        share = (np.log10([size, error]) - low) / (high - low)
         return LEFT + share[0] * (WIDTH - LEFT - RIGHT), HEIGHT - BOTTOM - share[1] * (HEIGHT - TOP - BOTTOM)
 
     parts = [
         f'<svg xmlns="http://www.w3.org/2000/svg" width="{WIDTH}" height="{HEIGHT}" viewBox="0 0 {WIDTH} {HEIGHT}">',
         f'<rect width="{WIDTH}" height="{HEIGHT}" fill="white"/>',
         f'<text x="{LEFT}" y="20" {FONT} font-weight="bold">{escape(title)}</text>',
-        f'<text x="{(LEFT + WIDTH - RIGHT) / 2}" y="{HEIGHT - 10}" text-anchor="middle" {FONT}>vertices</text>',
+        f'<text x="{(LEFT + WIDTH - RIGHT) / 2}" y="{HEIGHT - 10}" text-anchor="middle" {FONT}>{escape(size)}</text>',
         f'<text transform="translate(16 {HEIGHT / 2}) rotate(-90)" text-anchor="middle" {FONT}>{escape(unit)}</text>',
     ]
     for axis in (0, 1):

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 from typing import Any
 
@@ -38,6 +39,7 @@ Exit codes: 0 ok, 1 internal error, 2 usage, 3 unreadable input,
     help="draw them as an HTML file to turn and zoom, in any browser, offline",
 )
 @force_option
+@click.option("--json", "as_json", cls=GroupedOption, is_flag=True, help="print what was chosen and found as JSON")
 @quiet_option
 @setting_options("estimation", "cleaning", "normals", "embedding", "run", owner=CurvatureOptions)
 def command(
@@ -47,6 +49,7 @@ def command(
     picture: Path | None,
     page: Path | None,
     force: bool,
+    as_json: bool,
     quiet: bool,
     **values: Any,
 ) -> None:
@@ -91,6 +94,10 @@ def command(
 
             tell(progress, "page", 0.0)
             write_page(page, tensors, title=Path(source).name)
+    if as_json:
+        from hdpea.curvature.summary import as_dict
+
+        click.echo(json.dumps(as_dict(tensors), indent=2))
     if not quiet:
         from hdpea.curvature.summary import summarize
 

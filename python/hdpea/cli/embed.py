@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+import json
+from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
@@ -10,12 +12,21 @@ import click
 
 from hdpea.cli.config import config_of, config_option
 from hdpea.cli.destinations import require_no_scan
-from hdpea.cli.parameters import PATH, GroupedCommand, chosen_options, force_option, quiet_option, setting_options
+from hdpea.cli.parameters import (
+    PATH,
+    GroupedCommand,
+    GroupedOption,
+    chosen_options,
+    force_option,
+    quiet_option,
+    setting_options,
+)
 
 EPILOG = """\b
 Examples:
   hdpea embed scan.ply embedding.npz
   hdpea embed scan.ply embedding.ply --curvature-radius 1%
+  hdpea embed scan.ply embedding.npz --embedding learned --json > chosen.json
 """
 
 
@@ -24,10 +35,13 @@ Examples:
 @click.argument("output", metavar="OUT", type=PATH)
 @config_option
 @force_option
+@click.option("--json", "as_json", cls=GroupedOption, is_flag=True, help="print what was chosen, in full, as JSON")
 @quiet_option
 @setting_options("cleaning", "normals", "embedding", "run", also=["vertices", "particles"], without=["texture"])
 @click.pass_context
-def command(ctx: click.Context, /, *, source: str, output: Path, force: bool, quiet: bool, **values: Any) -> None:
+def command(
+    ctx: click.Context, /, *, source: str, output: Path, force: bool, as_json: bool, quiet: bool, **values: Any
+) -> None:
     """Embed the point cloud IN into R^8, where distances are lengths under the curvature metric.
 
     OUT is NPZ (arrays points and normals of shape (n, 3), coordinates of shape (n, 8)) or PLY
@@ -55,6 +69,9 @@ def command(ctx: click.Context, /, *, source: str, output: Path, force: bool, qu
         embedding = embed_points(cloud, options=options, progress=progress)
         tell(progress, "writing", 0.0)
         write_points(output, embedding.points, embedding.normals, embedding.coordinates, embedding.point_index)
+    if as_json:
+        told = {"choices": [asdict(each) for each in embedding.choices], "notes": list(embedding.notes)}
+        click.echo(json.dumps(told, indent=2))
     if not quiet:
         from hdpea.report.summary import describe
 

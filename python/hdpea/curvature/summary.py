@@ -1,12 +1,30 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Curvature tensors in the few lines that people read."""
+"""Curvature tensors in the few lines that people read, and in those that programs do."""
 
 from __future__ import annotations
+
+from dataclasses import asdict
+from typing import Any
 
 import numpy as np
 
 from hdpea.curvature.tensors import CurvatureTensors
 from hdpea.report.summary import describe
+
+
+def as_dict(tensors: CurvatureTensors) -> dict[str, Any]:
+    """Return what was chosen and what came out, fit for JSON.
+
+    ``curvature_range`` is null where curvatures have signs, and no limits.
+    """
+    return {
+        "choices": [asdict(each) for each in tensors.choices],
+        "notes": list(tensors.notes),
+        "points": len(tensors.determined),
+        "signed": tensors.signed,
+        "curvature_range": None if tensors.signed else list(map(float, tensors.curvature_range)),
+        "determined": float(tensors.determined.mean()),
+    }
 
 
 def summarize(tensors: CurvatureTensors) -> list[str]:

@@ -102,6 +102,6 @@ def _method(options: DenoisingOptions, roughness: Roughness, estimated: bool) ->
     if options.denoise != "auto":
         return options.denoise, ()
     method = "mls" if (roughness.deviation if estimated else roughness.noise) > ROUGH else "none"
-    kind = "" if roughness.like_noise else ", though not by noise"
+    kind = "" if roughness.like_noise else ", as its shape is rather than its noise"
     why = f"{roughness}{kind}; mls is worth it from {ROUGH:g} on"
     return method, (Choice("denoise", method, "", why),)

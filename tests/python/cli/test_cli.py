@@ -90,13 +90,16 @@ def test_a_picture_is_taken_from_where_the_sensors_were(tmp_path: Path, monkeypa
 
 
 def test_an_embedding_is_written(scan: str, tmp_path: Path, capsys: Capture) -> None:
-    assert run(["embed", scan, str(tmp_path / "points.npz"), "--normals", "estimate"]) == 0
+    assert run(["embed", scan, str(tmp_path / "points.npz"), "--normals", "estimate", "--json"]) == 0
     written = read_points(tmp_path / "points.npz")
     assert written.attributes["coordinates"].shape == (800, 8)
     np.testing.assert_allclose(written.points, clouds.torus(800)[0])
-    told = capsys.readouterr().err
-    assert "bending_length: " in told
-    assert "normal_neighbors: 16 points" in told
+    told = capsys.readouterr()
+    assert "bending_length: " in told.err
+    assert "normal_neighbors: 16 points" in told.err
+    chosen = {each["name"]: each for each in json.loads(told.out)["choices"]}
+    assert chosen["normal_neighbors"]["value"] == 16
+    assert chosen["bending_length"]["unit"] == "world units"
 
 
 def test_normals_are_turned_to_the_sensors_that_the_file_names(tmp_path: Path) -> None:

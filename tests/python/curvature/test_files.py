@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 from __future__ import annotations
 
+import json
 from collections.abc import Callable
 from pathlib import Path
 
@@ -90,9 +91,12 @@ def test_the_command_tells_what_it_found(scan: Path, tmp_path: Path, capsys: pyt
     assert len(read_points(tmp_path / "out.ply").points) == 800
 
 
-def test_the_methods_differ_in_signs(scan: Path, tmp_path: Path) -> None:
+def test_the_methods_differ_in_signs(scan: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     for method in ("embedding", "jet"):
-        assert run(["curvature", str(scan), str(tmp_path / f"{method}.npz"), "--method", method, "--quiet"]) == 0
+        written = str(tmp_path / f"{method}.npz")
+        assert run(["curvature", str(scan), written, "--method", method, "--quiet", "--json"]) == 0
+        told = json.loads(capsys.readouterr().out)
+        assert told["signed"] == (told["curvature_range"] is None) == (method == "jet")
     with np.load(tmp_path / "embedding.npz") as embedding, np.load(tmp_path / "jet.npz") as jet:
         assert (embedding["curvatures"] > 0).all()
         assert (jet["curvatures"] < 0).any()
