@@ -85,7 +85,7 @@ def prepare(folder: Path, count: int) -> None:
     normals = random.standard_normal((count, 3))
     normals /= np.linalg.norm(normals, axis=1, keepdims=True)
     points = normals * [2, 1, 1]
-    for name in ("scan.ply", "a.ply", "front.ply", "back.ply", "tile.ply", "statue.ply"):
+    for name in ("scan.ply", "a.ply", "fused.ply", "front.ply", "back.ply", "tile.ply", "statue.ply"):
         _write_cloud(folder / name, points)
     for name in ("flight.laz", "survey.laz"):
         _write_laz(folder / name, points)

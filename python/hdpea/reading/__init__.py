@@ -84,6 +84,8 @@ def read_bytes(path: Path) -> bytes:
     except FileNotFoundError as error:
         near = _nearest_name(path)
         hint = f"Did you mean {near}?" if near else "Check the spelling and the folder."
+        if "*" in path.name:
+            hint = "No file there has such a name."
         raise UnreadableInput(f"There is no file {path}.", hint) from error
     except IsADirectoryError as error:
         raise UnreadableInput(f"{path} is a folder, not a file.", "Give one file.") from error

@@ -17,6 +17,9 @@ from hdpea.reading.objects import Parts, PointsLike, as_array, parts_of
 
 SENSOR_NAMES = ("sensor_x", "sensor_y", "sensor_z")
 
+UNIT = 1e-15
+"""By how much the length of a vector may be off 1 for rounding alone."""
+
 FARTHEST = 1e150
 """Largest coordinate of which the core can square differences."""
 
@@ -278,8 +281,12 @@ def first_occurrences(rows: NDArray[np.float64]) -> NDArray[np.int64]:
 
 
 def unit_or_zero(vectors: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return the vectors (n, 3) at length 1; those that are zero or not finite become zero."""
+    """Return the vectors (n, 3) at length 1; those that are zero or not finite become zero.
+
+    Those of length 1 but for rounding stay as they are: what was read, given on as arrays, makes the same mesh.
+    """
     with np.errstate(invalid="ignore", over="ignore", divide="ignore"):
         lengths = np.linalg.norm(vectors, axis=1, keepdims=True)
         usable = np.isfinite(lengths) & (lengths > 0)
-        return np.where(usable, vectors / lengths, 0.0)
+        scales = np.where(abs(lengths - 1) < UNIT, 1.0, lengths)
+        return np.where(usable, vectors / scales, 0.0)

@@ -66,7 +66,9 @@ def test_a_cloud_without_one_usable_normal_has_none(normal: float) -> None:
 
 @given(st_numpy.arrays(np.float64, (5, 3)))
 def test_normals_have_length_one_or_zero_whatever_comes(vectors: NDArray[np.float64]) -> None:
-    lengths = np.linalg.norm(unit_or_zero(vectors), axis=1)
+    normals = unit_or_zero(vectors)
+    np.testing.assert_array_equal(unit_or_zero(normals), normals)
+    lengths = np.linalg.norm(normals, axis=1)
     assert np.all((abs(lengths - 1) < 1e-6) | (lengths == 0))
 
 
