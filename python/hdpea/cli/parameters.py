@@ -128,10 +128,15 @@ class GroupedCommand(click.Command):
 
     def parse_args(self, ctx: click.Context, args: list[str]) -> list[str]:
         """Read the arguments; errors say of which command they are."""
+        given = list(args)
         try:
             return super().parse_args(ctx, args)
         except click.UsageError as error:
             error.ctx = error.ctx or ctx
+            if isinstance(error, click.NoSuchOption) and not error.possibilities:
+                # Which is read as many options of one letter.
+                flags = {flag for param in self.params for flag in param.opts}
+                error.possibilities = [f"-{each}" for each in given if f"-{each}" in flags]
             raise
 
     def invoke(self, ctx: click.Context) -> Any:

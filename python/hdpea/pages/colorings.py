@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -28,6 +29,9 @@ NEIGHBORS = 12
 SATURATED = 98
 """Percentile of the values at which a ramp ends."""
 
+EXPECTED = 10.0
+"""Points that a face has by its area, from which on it is no chance if it has none: once in 22,000 such faces."""
+
 COLORS = ("red", "green", "blue")
 
 DISTANCE, COLOR = "distance", "colour"
@@ -43,6 +47,8 @@ def mesh_shape(
 ) -> MeshShape:
     """Return a mesh that can be coloured by curvature, by stretch, by its distance to points and by its attributes.
 
+    Faces where points are missing, as where a hole was filled, have corners of their own, whose distance is unknown.
+
     Parameters
     ----------
     vertices, faces
@@ -53,8 +59,10 @@ def mesh_shape(
         Arrays (v,) or (v, c) by name, as files have them.
     """
     colorings: list[Coloring | OwnColors] = []
+    bare = np.zeros(len(faces), dtype=bool)
     if points is not None and len(points):
-        colorings.append(_distances_at_vertices(vertices, faces, _rows(points, MOST_POINTS)))
+        distances, bare = _distances_at_vertices(vertices, faces, _rows(points, MOST_POINTS))
+        colorings.append(distances)
     areas = np.linalg.norm(area_vectors(vertices, faces), axis=1)
     curvatures = largest_curvatures(vertices, faces)
     most = _percentile(abs(curvatures), SATURATED)
@@ -65,7 +73,7 @@ def mesh_shape(
     note = "How many times longer than wide triangles are, against equilateral ones."
     colorings.append(Coloring("stretch", stretches, 1.0, max(_percentile(stretches, SATURATED), 1.5), note, True))
     colorings.extend(_of_attributes(attributes or {}, len(vertices)))
-    return MeshShape(name, vertices, faces, tuple(colorings))
+    return _with_own_corners(MeshShape(name, vertices, faces, tuple(colorings)), bare)
 
 
 def point_shape(
@@ -96,7 +104,23 @@ def _rows(points: Rows, most: int) -> Rows:
     return np.ascontiguousarray(points[thinned(len(points), most)])
 
 
-def _distances_at_vertices(vertices: Rows, faces: NDArray[np.int64], points: Rows) -> Coloring:
+def _with_own_corners(shape: MeshShape, chosen: NDArray[np.bool_]) -> MeshShape:
+    """Return a mesh whose `chosen` faces (f,) share corners with no other; their distance is unknown."""
+    corners, places = np.unique(shape.faces[chosen], return_inverse=True)
+    count = len(shape.vertices)
+    faces, rows = shape.faces.copy(), np.concatenate([np.arange(count), corners])
+    faces[chosen] = count + places.reshape(-1, 3)
+    colorings = [replace(each, values=each.values[rows]) for each in shape.colorings]
+    for each in colorings:
+        if each.name == DISTANCE:
+            each.values[count:] = np.nan
+    return MeshShape(shape.name, shape.vertices[rows], faces, tuple(colorings))
+
+
+def _distances_at_vertices(
+    vertices: Rows, faces: NDArray[np.int64], points: Rows
+) -> tuple[Coloring, NDArray[np.bool_]]:
+    """Return the distances of points at the vertices, and which faces (f,) have none, but should by their area."""
     with core_errors_translated():
         nearest = _core.closest_surface_points(vertices, faces, points)
     largest = float(nearest.distance.max()) or 1.0
@@ -107,7 +131,9 @@ def _distances_at_vertices(vertices: Rows, faces: NDArray[np.int64], points: Row
     note = (
         "Distance of the points on a vertex's faces, root mean square, in units of the file; dark grey: there are none."
     )
-    return Coloring(DISTANCE, distances, 0.0, _percentile(distances, SATURATED), note)
+    areas = np.linalg.norm(area_vectors(vertices, faces), axis=1)
+    bare = (counts == 0) & (areas * len(points) > EXPECTED * areas.sum())
+    return Coloring(DISTANCE, distances, 0.0, _percentile(distances, SATURATED), note), bare
 
 
 def _of_attributes(attributes: Attributes, count: int) -> Iterator[Coloring | OwnColors]:

@@ -126,3 +126,7 @@ def test_a_texture_wants_a_format_that_holds_it_and_names_for_its_files(
     picture = str(tmp_path / "mesh.texture.png")
     assert run(["reconstruct", scan, str(tmp_path / "mesh.obj"), "--texture", "256", "--picture", picture]) == 2
     assert "same output" in capsys.readouterr().err
+
+
+def test_an_option_with_one_dash_is_recognised(scan: str, failed: Callable[..., str]) -> None:
+    assert "Did you mean '--watertight'" in failed(2, "reconstruct", scan, "-watertight")

@@ -170,3 +170,19 @@ def test_a_browser_shows_a_page_without_complaint(tmp_path: Path) -> None:
     assert reddish[:, :400].mean() > 0.05
     assert not reddish[:, 400:].any()
     assert (colored[:, 400:] < 230).all(axis=2).mean() > 0.05
+
+
+def test_what_was_filled_is_told_from_what_was_measured() -> None:
+    """A patch across a hole need not have a vertex of its own."""
+    vertices, faces = meshes.icosphere()
+    vertices = vertices / np.linalg.norm(vertices[0])
+    points = clouds.sphere(20_000)[0]
+    measured = mesh_shape("ball", vertices, faces, points)
+    assert len(measured.vertices) == len(vertices)
+    holed = mesh_shape("ball", vertices, faces, points[points[:, 2] > -0.5])
+    distances = next(each.values for each in holed.colorings if each.name == DISTANCE)
+    unknown = np.isnan(distances[holed.faces]).all(axis=1)
+    centres = holed.vertices[holed.faces].mean(axis=1)
+    assert unknown[centres[:, 2] < -0.7].all()
+    assert not unknown[centres[:, 2] > -0.4].any()
+    np.testing.assert_array_equal(holed.vertices[holed.faces], vertices[faces])
