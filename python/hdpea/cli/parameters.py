@@ -132,11 +132,12 @@ class GroupedCommand(click.Command):
         try:
             return super().parse_args(ctx, args)
         except click.UsageError as error:
+            flags = {flag for param in self.params for flag in param.opts}
+            typed = next((each for each in given if f"-{each}" in flags), None)
+            if isinstance(error, click.NoSuchOption) and typed is not None:
+                # It was read as many options of one letter.
+                raise click.NoSuchOption(typed, possibilities=[f"-{typed}"], ctx=ctx) from error
             error.ctx = error.ctx or ctx
-            if isinstance(error, click.NoSuchOption) and not error.possibilities:
-                # Which is read as many options of one letter.
-                flags = {flag for param in self.params for flag in param.opts}
-                error.possibilities = [f"-{each}" for each in given if f"-{each}" in flags]
             raise
 
     def invoke(self, ctx: click.Context) -> Any:
