@@ -4,6 +4,8 @@
 #include <Eigen/Dense>
 #include <cmath>
 #include <numbers>
+#include <numeric>
+#include <utility>
 #include <vector>
 
 #include "hdpea_cpp/base/area_vector.hpp"
@@ -94,34 +96,40 @@ Eigen::VectorXd sizes(const Points& vertices, const FacesRef& faces) {
   return (sums.array() / counts.array().max(1)).sqrt();
 }
 
-Eigen::VectorXd distances(const PointsRef& points, const Points& vertices) {
-  const Neighbors nearest = nearest_neighbors(points, vertices, 1);
-  Eigen::VectorXd distances(vertices.rows());
-  for (Index v = 0; v < vertices.rows(); ++v) distances(v) = (points.row(nearest(v, 0)) - vertices.row(v)).norm();
+Eigen::VectorXd distances(const PointsRef& points, const NearestPoints& nearest, const Points& places) {
+  const Eigen::Vector<Index, Eigen::Dynamic> found = nearest.to(places);
+  Eigen::VectorXd distances(places.rows());
+  for (Index i = 0; i < places.rows(); ++i) distances(i) = (points.row(found(i)) - places.row(i)).norm();
   return distances;
 }
 
 /// Of each face the sum of the normals of the points nearest to its corners.
-Points normals_at_corners(const PointsRef& vertices, const FacesRef& faces, const PointsRef& points,
+Points normals_at_corners(const PointsRef& vertices, const FacesRef& faces, const NearestPoints& points,
                           const PointsRef& normals) {
-  const Neighbors nearest = nearest_neighbors(points, vertices, 1);
+  const Eigen::Vector<Index, Eigen::Dynamic> nearest = points.to(vertices);
   Points sums = Points::Zero(faces.rows(), 3);
   for (Index f = 0; f < faces.rows(); ++f) {
-    for (const Index v : faces.row(f)) sums.row(f) += normals.row(nearest(v, 0));
+    for (const Index v : faces.row(f)) sums.row(f) += normals.row(nearest(v));
   }
   return sums;
 }
 
 /// Halves the step of the vertices that leave the cloud: where few points hold one, least squares may send it far out
 /// along the planes of its faces. Farther than a gap between points, and than it was, is too far.
-void stay_near(const PointsRef& points, const Points& from, const Eigen::VectorXd& gap, Points& to) {
+void stay_near(const PointsRef& points, const NearestPoints& nearest, const Points& from, const Eigen::VectorXd& gap,
+               Points& to) {
   constexpr int halvings = 4;
-  const Eigen::VectorXd most = distances(points, from).cwiseMax(gap);
-  for (int round = 0; round < halvings; ++round) {
-    const Eigen::VectorXd found = distances(points, to);
-    for (Index v = 0; v < to.rows(); ++v) {
-      if (found(v) > most(v)) to.row(v) = (from.row(v) + to.row(v)) / 2;
+  const Eigen::VectorXd most = distances(points, nearest, from).cwiseMax(gap);
+  std::vector<Index> moved(static_cast<std::size_t>(to.rows()));
+  std::iota(moved.begin(), moved.end(), Index{0});
+  for (int round = 0; round < halvings && !moved.empty(); ++round) {
+    const Eigen::VectorXd found = distances(points, nearest, to(moved, Eigen::all));
+    std::vector<Index> too_far;
+    for (std::size_t i = 0; i < moved.size(); ++i) {
+      if (found(i) > most(moved[i])) too_far.push_back(moved[i]);
     }
+    for (const Index v : too_far) to.row(v) = (from.row(v) + to.row(v)) / 2;
+    moved = std::move(too_far);
   }
 }
 
@@ -168,12 +176,13 @@ Points refine_vertices(const PointsRef& vertices, const FacesRef& faces, const P
   require(options.rounds >= 0 && options.pull > 0 && options.max_gap > 0,
           "rounds must be 0 or more, pull and max_gap positive");
   Points refined = vertices;
-  const Points outward = normals_at_corners(vertices, faces, points, normals);
+  const NearestPoints nearest(points);
+  const Points outward = normals_at_corners(vertices, faces, nearest, normals);
   const Eigen::VectorXd gap = options.max_gap * sizes(refined, faces);
   for (Index round = 0; round < options.rounds; ++round) {
     report(progress, static_cast<double>(round) / static_cast<double>(options.rounds));
     Points fitted = fitted_vertices(refined, faces, points, normals, options);
-    stay_near(points, refined, gap, fitted);
+    stay_near(points, nearest, refined, gap, fitted);
     for (Index v = 0; v < fixed.size(); ++v) {
       if (fixed(v)) fitted.row(v) = refined.row(v);
     }

@@ -69,6 +69,8 @@ using Tree = nanoflann::KDTreeSingleIndexAdaptor<
                        nanoflann::L2_Adaptor<double, Adaptor>>,
     Adaptor, dimensions, Index>;
 
+const nanoflann::KDTreeSingleIndexAdaptorParams kLeaves(16);
+
 /// The row's k nearest of `count` points, leaving out `excluded` (-1: nothing is left out).
 template <class AnyTree, class Row>
 void search(const AnyTree& tree, Index count, const double* query, Index excluded, Row row) {
@@ -87,14 +89,13 @@ template <class Use>
 void with_tree(const CoordinatesRef& points, const Use& use) {
   const Adaptor adaptor{points};
   const int dimensions = static_cast<int>(points.cols());
-  const nanoflann::KDTreeSingleIndexAdaptorParams leaves(16);
   switch (dimensions) {
     case 3:
-      return use(Tree<3>(dimensions, adaptor, leaves));
+      return use(Tree<3>(dimensions, adaptor, kLeaves));
     case 8:
-      return use(Tree<8>(dimensions, adaptor, leaves));
+      return use(Tree<8>(dimensions, adaptor, kLeaves));
     default:
-      return use(Tree<-1>(dimensions, adaptor, leaves));
+      return use(Tree<-1>(dimensions, adaptor, kLeaves));
   }
 }
 
@@ -126,6 +127,30 @@ Neighbors nearest_neighbors(const CoordinatesRef& points, Index k) {
                  [&](Index i) { search(tree, points.rows(), points.row(i).data(), i, neighbors.row(i)); });
   });
   return neighbors;
+}
+
+struct NearestPoints::Search {
+  explicit Search(const PointsRef& given) : points(given), tree(3, adaptor, kLeaves) {}
+
+  const CoordinatesRef points;
+  const Adaptor adaptor{points};
+  const Tree<3> tree;
+};
+
+NearestPoints::NearestPoints(const PointsRef& points) {
+  check(points, 1);
+  search_ = std::make_unique<Search>(points);
+}
+
+NearestPoints::~NearestPoints() = default;
+
+Eigen::Vector<Index, Eigen::Dynamic> NearestPoints::to(const PointsRef& places) const {
+  require_finite(places, "places");
+  Neighbors nearest(places.rows(), 1);
+  parallel_for(places.rows(), [&](Index i) {
+    search(search_->tree, search_->points.rows(), places.row(i).data(), -1, nearest.row(i));
+  });
+  return nearest.col(0);
 }
 
 }  // namespace hdpea

@@ -78,5 +78,15 @@ TEST(Neighbors, RefuseABadContract) {
   EXPECT_THROW(nearest_neighbors(points, random_points(2, 8, 1), 1), InvalidArgument);
 }
 
+TEST(Neighbors, OneTreeFindsTheNearestAgainAndAgain) {
+  const Points points = random_points(300, 3, 7);
+  const NearestPoints nearest(points);
+  for (const Points& places : {Points(random_points(70, 3, 1)), Points(random_points(9, 3, 2)), points}) {
+    EXPECT_EQ(nearest.to(places), nearest_neighbors(points, places, 1).col(0));
+  }
+  EXPECT_THROW(NearestPoints(Points(0, 3)), InvalidArgument);
+  EXPECT_THROW(nearest.to(Points::Constant(1, 3, NAN)), InvalidArgument);
+}
+
 }  // namespace
 }  // namespace hdpea
