@@ -26,7 +26,8 @@ struct EmbeddingOptions {
 ///
 /// The global step's matrix is L + l^2 L A^-1 L = (A + l^2 L) A^-1 L, with L the cotangent Laplacian and A
 /// the lumped areas: two second-order systems, whose Cholesky factors are several times sparser than that
-/// of the product.
+/// of the product. By partial fractions its inverse is L^-1 - l^2 (A + l^2 L)^-1, so that neither solve
+/// waits for the other.
 ///
 /// @param points     (n, 3)
 /// @param normals    (n, 3) unit, consistently oriented; psi starts at 0.2 n, which separates the two sides of a wall
