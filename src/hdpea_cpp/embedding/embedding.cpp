@@ -20,6 +20,7 @@ namespace {
 
 using Psi = Cholesky::Columns;  // (n, 5)
 using Corners = Eigen::Matrix<double, 3, 5>;
+using Frame = Eigen::Matrix<double, 5, 2>;
 
 /// What one triangle contributes: all of it constant but psi.
 struct Element {
@@ -54,6 +55,13 @@ Eigen::Matrix3d metric_excess(const PointsRef& normals, const Curvature& curvatu
   const double excess1 = std::clamp(options.metric_scale * std::abs(curvature.principal(i, 0)), 1.0, most) - 1;
   const double excess2 = std::clamp(options.metric_scale * std::abs(curvature.principal(i, 1)), 1.0, most) - 1;
   return excess1 * direction1 * direction1.transpose() + excess2 * direction2 * direction2.transpose();
+}
+
+std::vector<Eigen::Matrix3d> metric_excess(const PointsRef& normals, const Curvature& curvature,
+                                           const EmbeddingOptions& options) {
+  std::vector<Eigen::Matrix3d> excess(static_cast<std::size_t>(normals.rows()));
+  parallel_for(normals.rows(), [&](Index i) { excess[i] = metric_excess(normals, curvature, i, options); });
+  return excess;
 }
 
 /// The triangles as finite elements: the Laplacian and the local step of the iteration.
@@ -92,20 +100,21 @@ class Elements {
 
   /// The local step and the divergence of its frames: sum over triangles of area (R Q) grad(hat).
   void divergence_of_frames(const Psi& psi, Psi& divergence) {
-    contributions_.resize(elements_.size());
+    frames_.resize(elements_.size());
     parallel_for(triangles_.rows(), [&](Index t) {
       const Element& element = elements_[t];
       Corners corners;
       for (int i = 0; i < 3; ++i) corners.row(i) = psi.row(triangles_(t, i));
       const Eigen::Matrix<double, 5, 2> jacobian = (element.gradients * corners).transpose();
-      const Eigen::Matrix<double, 5, 2> target = polar_factor(jacobian * element.excess) * element.excess;
-      contributions_[t].noalias() = element.area * (target * element.gradients).transpose();
+      frames_[t].noalias() = element.area * polar_factor(jacobian * element.excess) * element.excess;
     });
     // Gathered by vertex in the order of the triangles, so that threads cannot change the sums.
     parallel_for(psi.rows(), [&](Index v) {
       Eigen::Matrix<double, 1, 5> sum = Eigen::Matrix<double, 1, 5>::Zero();
-      for (Index at = starts_[v]; at < starts_[v + 1]; ++at)
-        sum += contributions_[corners_[at] / 3].row(corners_[at] % 3);
+      for (Index at = starts_[v]; at < starts_[v + 1]; ++at) {
+        const Index t = corners_[at] / 3;
+        sum += (frames_[t] * elements_[t].gradients.col(corners_[at] % 3)).transpose();
+      }
       divergence.row(v) = sum;
     });
   }
@@ -152,7 +161,7 @@ class Elements {
   std::vector<Element> elements_;
   Eigen::VectorXd areas_;
   std::vector<Index> starts_, corners_;
-  std::vector<Corners> contributions_;
+  std::vector<Frame> frames_;  // R Q, times the area
 };
 
 /// The normal separates the two sides of a wall; a little of the last two dimensions lets psi unfold into them.
@@ -236,9 +245,7 @@ Coordinates solve_embedding(const PointsRef& points, const PointsRef& normals, c
   require(!initial || (initial->rows() == n && initial->cols() == 5), "the initial psi must be (n, 5)");
   if (initial) require_finite(*initial, "the initial psi");
 
-  std::vector<Eigen::Matrix3d> excess(static_cast<std::size_t>(n));
-  parallel_for(n, [&](Index i) { excess[i] = metric_excess(normals, curvature, i, options); });
-  Elements elements(points, triangles, weights, excess);
+  Elements elements(points, triangles, weights, metric_excess(normals, curvature, options));
 
   // Points in no triangle get a little area of their own; a little of A makes L definite, however much the
   // slivers between nearly equal points weigh. It slows psi's convergence by its ratio to L's eigenvalues, which
@@ -247,12 +254,14 @@ Coordinates solve_embedding(const PointsRef& points, const PointsRef& normals, c
   const Eigen::VectorXd areas = elements.areas().cwiseMax(1e-3 * mean_area);
   const double anchor = 1e-3 / (points.colwise().maxCoeff() - points.colwise().minCoeff()).squaredNorm();
   if (!std::isfinite(anchor)) throw CannotReconstruct("the points lie in one place");
-  const SparseMatrix anchored = elements.laplacian() + anchor * diagonal(areas);
   const double squared_length = options.bending_length * options.bending_length;
   std::optional<Cholesky> bending, poisson;
-  // Neither needs the other, and a factorization takes one thread.
-  tbb::parallel_invoke([&] { bending.emplace(squared_length * anchored + diagonal(areas)); },
-                       [&] { poisson.emplace(anchored); });
+  {
+    const SparseMatrix anchored = elements.laplacian() + anchor * diagonal(areas);
+    // Neither needs the other, and a factorization takes one thread.
+    tbb::parallel_invoke([&] { bending.emplace(squared_length * anchored + diagonal(areas)); },
+                         [&] { poisson.emplace(anchored); });
+  }
 
   Psi psi = initial ? Psi(*initial) : initial_psi(normals);
   Psi ahead = psi, next(n, 5), bent(n, 5);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hdpea_cpp/mesh/restricted_voronoi.hpp"
 
+#include <tbb/parallel_sort.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -17,6 +19,9 @@ namespace {
 using Triple = std::array<Index, 3>;
 constexpr Index kDisk = -1;       // label of an edge that lies on the disk's rim
 constexpr int kDiskCorners = 10;  // HD-PEA, section C
+
+/// Seeds whose triangles are gathered in one list: one for each seed would leave the memory in crumbs.
+constexpr Index kSeedsAtOnce = 1024;
 
 /// A corner of a cell, and the bisector (or the rim) on which the edge that starts there lies.
 struct Corner {
@@ -80,7 +85,7 @@ void dual_triangles(Index seed, const Polygon& polygon, std::vector<Triple>& tri
 
 /// Sorts the triples and counts equal ones, at most three times each.
 void collect(std::vector<Triple>& triples, Candidates& candidates) {
-  std::sort(triples.begin(), triples.end());
+  tbb::parallel_sort(triples.begin(), triples.end());
   std::vector<int> counts;
   std::size_t kept = 0;
   for (std::size_t i = 0; i < triples.size();) {
@@ -110,8 +115,8 @@ Candidates restricted_voronoi_candidates(const CoordinatesRef& seeds, const Coor
   require(radii.allFinite() && (radii.array() > 0).all(), "disk radii must be positive and finite");
 
   Candidates candidates{{}, {}, Eigen::VectorXd(n)};
-  std::vector<std::vector<Triple>> triples_of(static_cast<std::size_t>(n));
-  parallel_for(n, [&](Index i) {
+  std::vector<std::vector<Triple>> triples_of(static_cast<std::size_t>((n + kSeedsAtOnce - 1) / kSeedsAtOnce));
+  const auto cut = [&](Index i, std::vector<Triple>& triples) {
     thread_local Polygon polygon, clipped;
     set_disk(radii(i), polygon);
     double reach = largest_squared_norm(polygon);
@@ -127,11 +132,19 @@ Candidates restricted_voronoi_candidates(const CoordinatesRef& seeds, const Coor
       reach = largest_squared_norm(polygon);
     }
     candidates.cell_areas(i) = area(polygon);
-    dual_triangles(i, polygon, triples_of[i]);
-  });
+    dual_triangles(i, polygon, triples);
+  };
+  parallel_for(
+      static_cast<Index>(triples_of.size()),
+      [&](Index part) {
+        const Index end = std::min(n, (part + 1) * kSeedsAtOnce);
+        for (Index i = part * kSeedsAtOnce; i < end; ++i) cut(i, triples_of[part]);
+      },
+      1);
 
   std::vector<Triple> triples;
-  for (const auto& of_seed : triples_of) triples.insert(triples.end(), of_seed.begin(), of_seed.end());
+  for (const auto& of_seeds : triples_of) triples.insert(triples.end(), of_seeds.begin(), of_seeds.end());
+  triples_of.clear();
   collect(triples, candidates);
   return candidates;
 }
