@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from hdpea import _core
 from hdpea.frontend.crowds import FEWEST, STEP, crowds_lie_across, nearest_kept, quiet_count
 from hdpea.geometry.thinning import farthest_rows
+from hdpea.runtime.blocks import in_blocks
 
 NEAR, FAR = 3, 24
 """Nearest points whose distances tell the dimension of what lies between: from beyond chance to beyond one line."""
@@ -123,7 +124,8 @@ def _dimension(points: NDArray[np.float64], nearest: NDArray[np.int64]) -> NDArr
     growth = np.log(np.maximum(far, tiny) / np.maximum(near, tiny))
     # What it is on a plane, on average: half the sum of 1 / k for k from NEAR to FAR - 1.
     on_a_plane = (1 / np.arange(NEAR, FAR)).sum() / 2
-    return np.asarray(2 * on_a_plane / np.maximum(growth[nearest[:, :AVERAGED]].mean(axis=1), tiny))
+    averaged = in_blocks(lambda block: growth[nearest[block, :AVERAGED]].mean(axis=1), len(points))
+    return np.asarray(2 * on_a_plane / np.maximum(averaged, tiny))
 
 
 def _share_of_twins(points: NDArray[np.float64], nearest: NDArray[np.int64]) -> float:
@@ -143,7 +145,9 @@ def _share_of(level: NDArray[np.float64], least: float) -> tuple[dict[float, NDA
 
 def _even_spacing(points: NDArray[np.float64], nearest: NDArray[np.int64]) -> NDArray[np.float64]:
     """Return the side (n,) of the square of surface that each of evenly spread points (n, 3) has for itself."""
-    return np.asarray(np.sqrt(np.median(_areas(points, nearest)[nearest[:, :SURROUNDING]], axis=1)))
+    areas = _areas(points, nearest)
+    around = in_blocks(lambda block: np.median(areas[nearest[block, :SURROUNDING]], axis=1), len(points))
+    return np.asarray(np.sqrt(around))
 
 
 def _areas(points: NDArray[np.float64], nearest: NDArray[np.int64]) -> NDArray[np.float64]:

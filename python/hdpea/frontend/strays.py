@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from hdpea import _core
 from hdpea.frontend.standing import Standing
 from hdpea.geometry.thinning import rows_along
+from hdpea.runtime.blocks import in_blocks
 
 REACHES = (12, 24)
 """Numbers of nearest points that a point's distance to the last of is compared; small heaps of strays need the more."""
@@ -105,19 +106,19 @@ def find_strays(points: NDArray[np.float64], nearest: NDArray[np.int64], on_line
 
 def _stand_out(standing: Standing, rows: NDArray[np.int64], farther: float, planar: bool) -> NDArray[np.int64]:
     """Return which points stand out: of the `rows`, around which something changed, and of those that are sparse."""
-    nearest = standing.nearest[rows]
     out = np.zeros(len(standing.points), dtype=bool)
     for count in REACHES:
         reached = standing.reached(count)
-        out[rows] |= reached[rows] > farther * _around(reached, nearest[:, :count])
+        out[rows] |= reached[rows] > farther * _around(reached, standing, rows, count)
     reached, left = standing.reached(max(REACHES)), standing.rows
     sparse = left[~out[left] & (reached[left] > SPARSE * np.median(reached[left]))]
     if len(sparse) and len(left) > FAR_REACH:
         out[sparse] = _lie_far_off(standing.points, left, sparse, farther)
     if planar:
         # A disk that reaches to the k-th neighbour holds k points.
-        wide = _around(standing.reached(PLANE_POINTS), nearest[:, :PLANE_POINTS])
-        out[rows] |= _off_the_plane(standing, rows, wide * np.sqrt(np.pi / PLANE_POINTS))
+        wide = _around(standing.reached(PLANE_POINTS), standing, rows, PLANE_POINTS)
+        spacing = wide * np.sqrt(np.pi / PLANE_POINTS)
+        out[rows] |= in_blocks(lambda block: _off_the_plane(standing, rows[block], spacing[block]), len(rows))
     return np.flatnonzero(out)
 
 
@@ -134,9 +135,15 @@ def _lie_far_off(
     return np.asarray(reached[:, 0] > farther * np.quantile(reached[:, 1:], SURROUNDINGS, axis=1))
 
 
-def _around(values: NDArray[np.float64], nearest: NDArray[np.int64]) -> NDArray[np.float64]:
-    """Return a low quantile of the values (n,) of each row's `nearest` (m, k)."""
-    return np.asarray(np.quantile(values[nearest], SURROUNDINGS, axis=1))
+def _around(
+    values: NDArray[np.float64], standing: Standing, rows: NDArray[np.int64], count: int
+) -> NDArray[np.float64]:
+    """Return a low quantile (m,) of the values (n,) of the `count` points nearest to each of the `rows` (m,)."""
+
+    def quantiles(block: slice) -> NDArray[np.float64]:
+        return np.asarray(np.quantile(values[standing.nearest[rows[block], :count]], SURROUNDINGS, axis=1))
+
+    return in_blocks(quantiles, len(rows))
 
 
 def _in_sheets(points: NDArray[np.float64], strays: NDArray[np.bool_]) -> NDArray[np.int64]:

@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 from hdpea import _core
 from hdpea.geometry.tensors import symmetric_tensors
+from hdpea.runtime.blocks import in_blocks
 
 CELL_NEIGHBORS = 40
 """Nearest particles whose bisectors cut a cell: enough for disks of up to two mean distances."""
@@ -47,17 +48,19 @@ def restricted_cells(
     offsets = coordinates[neighbors[:, :PLANE_NEIGHBORS]] - coordinates[:, None]
     distances = np.linalg.norm(offsets, axis=2)
     radii = disk_radius * np.maximum(distances[:, 0].mean(), distances[:, SPARSE_NEIGHBOR])
-    flat_bases = _planes(offsets, distances, bases).reshape(len(coordinates), -1)
+    faint = 1e-3 * float((distances**2).mean())
+    planes = in_blocks(lambda rows: _planes(offsets[rows], distances[rows], bases[rows], faint), len(coordinates))
+    flat_bases = planes.reshape(len(coordinates), -1)
     return _core.restricted_voronoi_candidates(coordinates, flat_bases, neighbors, radii), radii
 
 
 def _planes(
-    offsets: NDArray[np.float64], distances: NDArray[np.float64], bases: NDArray[np.float64]
+    offsets: NDArray[np.float64], distances: NDArray[np.float64], bases: NDArray[np.float64], faint: float
 ) -> NDArray[np.float64]:
     """Return orthonormal bases (m, 2, d) of the planes of the `offsets` (m, k, d) to the neighbours, by PCA.
 
     Weights fall with the distance, so that an eighth neighbour as near as the seventh makes little difference; the
-    cloud's own planes, `bases` (m, 2, d), have next to none, and stand in where no neighbour is of the same sheet.
+    cloud's own planes, `bases` (m, 2, d), have a `faint` one, and stand in where no neighbour is of the same sheet.
     """
     squared = distances**2
     in_plane = np.einsum("mbi,mki->mkb", bases, offsets)
@@ -66,6 +69,6 @@ def _planes(
     means = np.maximum(squared.mean(axis=1, keepdims=True), np.finfo(float).tiny)
     weights = np.exp(-squared / means) * same_sheet
     covariances = symmetric_tensors(weights, offsets)
-    covariances += 1e-3 * squared.mean() * np.einsum("mbi,mbj->mij", bases, bases)
+    covariances += faint * np.einsum("mbi,mbj->mij", bases, bases)
     vectors = np.linalg.eigh(covariances).eigenvectors
     return np.ascontiguousarray(vectors[:, :, -2:].swapaxes(1, 2))

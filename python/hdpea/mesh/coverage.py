@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 from hdpea import _core
 from hdpea.mesh.particles import Particles
+from hdpea.runtime.blocks import in_blocks
 from hdpea.surface.surface import Surface, area_shown
 
 MAX_GAP = 1.0
@@ -38,12 +39,13 @@ def covered(
     towards = surface.normals[particles.nearest][corners].sum(axis=1)  # (t, 3)
     farthest = _reach(particles, surface, resolution or len(particles.nearest))[corners].max(axis=1)  # (t,)
     chosen = np.ones(len(corners), dtype=bool)
-    for weights in MIDDLES:
-        places = np.einsum("c,tcx->tx", weights, positions[corners])
-        # The nearest point alone settles it for nearly all.
-        doubtful = np.flatnonzero(~_lie_on(surface, places, towards, farthest, 1))
-        still = _lie_on(surface, places[doubtful], towards[doubtful], farthest[doubtful], POINTS_BELOW)
-        chosen[doubtful[~still]] = False
+    places = np.einsum("wc,tcx->twx", MIDDLES, positions[corners]).reshape(-1, 3)
+    of = np.repeat(np.arange(len(corners)), len(MIDDLES))
+    # The nearest point alone settles it for nearly all.
+    doubtful = np.flatnonzero(~_lie_on(surface, places, towards[of], farthest[of], 1))
+    of = of[doubtful]
+    still = _lie_on(surface, places[doubtful], towards[of], farthest[of], POINTS_BELOW)
+    chosen[of[~still]] = False
     return _core.Candidates(corners[chosen], candidates.counts[chosen], candidates.cell_areas)
 
 
@@ -56,10 +58,14 @@ def _lie_on(
 ) -> NDArray[np.bool_]:
     """Return whether one of the `count` nearest points to each place (t, 3) is near enough (t,) and faces `towards`."""
     below = _core.nearest_neighbors(surface.points_in_unit, places, count)  # (t, k)
-    offsets = surface.points_in_unit[below] - places[:, None]
-    near = np.einsum("tkx,tkx->tk", offsets, offsets) <= farthest[:, None] ** 2
-    facing = np.einsum("tkx,tx->tk", surface.normals[below], towards) > 0
-    return np.asarray((near & facing).any(axis=1))
+
+    def lie(rows: slice) -> NDArray[np.bool_]:
+        offsets = surface.points_in_unit[below[rows]] - places[rows, None]
+        near = np.einsum("tkx,tkx->tk", offsets, offsets) <= farthest[rows, None] ** 2
+        facing = np.einsum("tkx,tx->tk", surface.normals[below[rows]], towards[rows]) > 0
+        return np.asarray((near & facing).any(axis=1))
+
+    return in_blocks(lie, len(places))
 
 
 def _reach(particles: Particles, surface: Surface, resolution: int) -> NDArray[np.float64]:

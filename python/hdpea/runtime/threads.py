@@ -25,6 +25,15 @@ FEW_ROWS = 64
 """Matrix products of fewer rows are computed by one thread."""
 
 
+_limit = 0
+"""Of the threads of the core, as it was last set; 0: none."""
+
+
+def thread_count() -> int:
+    """Return how many threads are to be used now."""
+    return _limit or os.cpu_count() or 1
+
+
 @contextmanager
 def limited_threads(count: int) -> Iterator[None]:
     """Limit the core and torch to `count` threads meanwhile, at most ``MOST_THREADS``; 0: no limit."""
@@ -32,15 +41,20 @@ def limited_threads(count: int) -> Iterator[None]:
         # Nothing to tell torch, which a run may not need, and takes seconds to load.
         yield
         return
-    from hdpea import _core
-
-    count = min(count, MOST_THREADS)
-    _core.set_thread_limit(count)
+    _limit_core(count := min(count, MOST_THREADS))
     try:
         with _limited_torch(count) if has_pytorch() else nullcontext():
             yield
     finally:
-        _core.set_thread_limit(0)
+        _limit_core(0)
+
+
+def _limit_core(count: int) -> None:
+    from hdpea import _core
+
+    global _limit  # noqa: PLW0603 - as there is one limit of the core
+    _core.set_thread_limit(count)
+    _limit = count
 
 
 @contextmanager

@@ -11,15 +11,13 @@ from numpy.typing import NDArray
 from hdpea import _core
 from hdpea.errors import CannotReconstruct, core_errors_translated
 from hdpea.geometry.unit_frame import UnitFrame
+from hdpea.runtime.blocks import in_blocks
 
 NEIGHBORS = 40
 """Nearest points of each point that are searched for, once for all stages."""
 
 AREA_NEIGHBORS = 12
 """Nearest points of the same sheet that an area is estimated from."""
-
-ROWS_AT_ONCE = 4_000
-"""Points of which areas are estimated at a time: so few that their offsets stay in the caches."""
 
 MIN_POINTS = 16
 """Fewer points than this do not show a surface."""
@@ -82,15 +80,15 @@ def areas_shown(points: NDArray[np.float64], neighbors: NDArray[np.int64]) -> ND
     It is estimated from the nearest ``AREA_NEIGHBORS``: the disk out to the k-th neighbour of a point holds the area
     of k points, at any density.
     """
-    areas = np.empty(len(points))
-    for first in range(0, len(points), ROWS_AT_ONCE):
-        rows = slice(first, first + ROWS_AT_ONCE)
+
+    def areas(rows: slice) -> NDArray[np.float64]:
         near = neighbors[rows, :AREA_NEIGHBORS]
         known = near >= 0
         offsets = np.where(known[:, :, None], points[near] - points[rows, None], 0)
         squared_radii = np.einsum("nkc,nkc->nk", offsets, offsets).max(axis=1)
-        areas[rows] = np.pi * squared_radii / np.maximum(known.sum(axis=1), 1)
-    return areas
+        return np.asarray(np.pi * squared_radii / np.maximum(known.sum(axis=1), 1))
+
+    return in_blocks(areas, len(points))
 
 
 def disk_radii(points: NDArray[np.float64], neighbors: NDArray[np.int64]) -> NDArray[np.float64]:
