@@ -63,6 +63,7 @@ void register_normal_orientation(nb::module_& module);
 void register_normals(nb::module_& module);
 void register_parallel(nb::module_& module);
 void register_piece_sides(nb::module_& module);
+void register_reaching(nb::module_& module);
 void register_refinement(nb::module_& module);
 void register_remeshing(nb::module_& module);
 void register_restricted_voronoi(nb::module_& module);

@@ -20,6 +20,7 @@ NB_MODULE(_core, module) {
   register_normals(module);
   register_parallel(module);
   register_piece_sides(module);
+  register_reaching(module);
   register_refinement(module);
   register_remeshing(module);
   register_restricted_voronoi(module);

@@ -16,6 +16,7 @@ from hdpea.mesh.creases import align_to_creases, find_creases, with_crease_edges
 from hdpea.mesh.error_bound import ErrorBound, mended_within, simplify_within
 from hdpea.mesh.extraction import Mesh, extract_mesh
 from hdpea.mesh.particles import spread_particles
+from hdpea.mesh.reaching import reach_points
 from hdpea.mesh.refinement import refine_mesh
 from hdpea.mesh.repair import repair_mesh
 from hdpea.mesh.simplification import simplify_mesh
@@ -100,6 +101,9 @@ def assemble_mesh(
             coordinates, bases = coordinates[kept], bases[kept]
         mesh = align_to_creases(mesh, creases)
         mesh = refine_mesh(mesh, surface, options.refinement, of_phase(progress, "refinement"))
+        reaches = exact and counts.many and options.refinement.refine
+        if reaches:
+            mesh = reach_points(mesh, surface, coordinates, counts.resolution)
     bound = None
     if options.meshing.error is not None:
         bound = ErrorBound(surface, surface.frame.length_to_unit(options.meshing.error))
@@ -117,6 +121,11 @@ def assemble_mesh(
         with clock.stage("refinement"):
             mesh = align_to_creases(mesh, creases)
             mesh = refine_mesh(mesh, surface, options.refinement, of_phase(progress, "refinement"))
+            if reaches and bound is None:
+                fitted = mesh
+                mesh = reach_points(fitted, surface, coordinates, len(fitted.vertices_in_unit))
+                if len(mesh.vertices_in_unit) > len(fitted.vertices_in_unit):
+                    mesh = simplify_mesh(mesh, surface, wanted)
     with clock.stage("repair"):
         tell(progress, "repair", 0)
         mesh = repair_mesh(mesh, surface.points_in_unit, exact=exact) if bound is None else mended_within(mesh, bound)

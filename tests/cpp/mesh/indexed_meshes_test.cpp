@@ -10,6 +10,7 @@
 #include "hdpea_cpp/base/errors.hpp"
 #include "hdpea_cpp/mesh/hole_filling.hpp"
 #include "hdpea_cpp/mesh/mesh_check.hpp"
+#include "hdpea_cpp/mesh/reaching.hpp"
 #include "hdpea_cpp/mesh/refinement.hpp"
 #include "hdpea_cpp/mesh/remeshing.hpp"
 #include "hdpea_cpp/mesh/self_intersections.hpp"
@@ -30,6 +31,7 @@ const Function kFunctions[] = {
     {"closest_surface_points", [](auto&... mesh) { closest_surface_points(mesh..., Points::Zero(1, 3)); }},
     {"count_self_intersections", [](auto&... mesh) { count_self_intersections(mesh...); }},
     {"fill_holes", [](auto&... mesh) { fill_holes(mesh..., 1); }},
+    {"reach_points", [](auto&... mesh) { reach_points(mesh..., Points::Zero(9, 3), Points::Constant(9, 3, 0.5), 1); }},
     {"refine_vertices",
      [](auto&... mesh) { refine_vertices(mesh..., Points::Zero(9, 3), Points::Constant(9, 3, 0.5), {}); }},
     {"remesh_isotropically", [](auto&... mesh) { remesh_isotropically(mesh..., {.edge_length = 0.4}); }},

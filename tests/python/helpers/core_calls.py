@@ -88,6 +88,7 @@ CALLS: dict[str, tuple[Callable[..., Any], Arguments]] = {
     "nearest_neighbors": (_core.nearest_neighbors, {"points": POINTS, "queries": VERTICES, "k": 5}),
     "orient_normals": (_core.orient_normals, _cloud()),
     "orientation_consistency": (_core.orientation_consistency, _cloud()),
+    "reach_points": (_core.reach_points, _mesh() | {"points": POINTS, "normals": NORMALS, "far": 0.1}),
     "refine_vertices": (
         lambda **arrays: _core.refine_vertices(options=_core.RefinementOptions(), **arrays),
         _mesh() | {"points": POINTS, "normals": NORMALS},

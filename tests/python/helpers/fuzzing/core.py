@@ -21,7 +21,14 @@ OF_VERTICES, OF_POINTS, OF_FACES = (
     {"points", "places", "queries", "seeds"},
     {"faces", "triangles"},
 )
-MADE_OF_MESHES = {"fill_holes", "remesh_isotropically", "repair_self_intersections", "simplify_mesh", "simplify_within"}
+MADE_OF_MESHES = {
+    "fill_holes",
+    "reach_points",
+    "remesh_isotropically",
+    "repair_self_intersections",
+    "simplify_mesh",
+    "simplify_within",
+}
 """Functions that keep a manifold mesh manifold."""
 
 
