@@ -51,6 +51,7 @@ void register_crease_alignment(nb::module_& module);
 void register_anisotropic_remeshing(nb::module_& module);
 void register_errors(nb::module_& module);
 void register_farthest_point_sampling(nb::module_& module);
+void register_gap_closing(nb::module_& module);
 void register_hole_filling(nb::module_& module);
 void register_intersection_repair(nb::module_& module);
 void register_jet_fitting(nb::module_& module);

@@ -9,6 +9,7 @@ NB_MODULE(_core, module) {
   register_anisotropic_remeshing(module);
   register_farthest_point_sampling(module);
   register_hole_filling(module);
+  register_gap_closing(module);
   register_intersection_repair(module);
   register_jet_fitting(module);
   register_mesh_check(module);

@@ -92,7 +92,7 @@ def assemble_mesh(
         options.vertices_of(points_shown),
         options.resolution_of(points_shown),
     )
-    mesh = _mesh_of_particles(surface, coordinates, bases, options, counts, progress, clock)
+    mesh = _mesh_of_particles(surface, coordinates, bases, options, counts, progress, clock, exact=exact)
     with clock.stage("refinement"):
         creases = find_creases(surface)
         kept = _points_of_kept_pieces(mesh, surface, counts.vertices)
@@ -154,6 +154,8 @@ def _mesh_of_particles(
     counts: _Counts,
     progress: ProgressCallback | None,
     clock: StageClock,
+    *,
+    exact: bool,
 ) -> Mesh:
     """Spread particles and join them; where that makes too few vertices, spread more."""
     count, share_kept = counts.particles, counts.vertices / counts.particles
@@ -173,7 +175,9 @@ def _mesh_of_particles(
             )
         with clock.stage("meshing"):
             tell(progress, "meshing", 0)
-            attempts.append(extract_mesh(particles, bases, surface, options.meshing, share_kept, counts.resolution))
+            attempts.append(
+                extract_mesh(particles, bases, surface, options.meshing, share_kept, counts.resolution, exact=exact)
+            )
             tell(progress, "meshing", 1)
         excess = Budget.of(options.meshing).excess(attempts[-1])
         if excess >= 0:

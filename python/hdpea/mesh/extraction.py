@@ -71,6 +71,8 @@ def extract_mesh(
     options: MeshingOptions | None = None,
     share_kept: float = 1.0,
     resolution: int | None = None,
+    *,
+    exact: bool = False,
 ) -> Mesh:
     """Join particles to a mesh.
 
@@ -85,6 +87,9 @@ def extract_mesh(
     resolution
         How many vertices the points can show, by whose spacing it goes which holes are filled, and how far from the
         points a triangle may lie; default: the particles.
+    exact
+        Whether the points are free of noise, and their normals their own: then these say where a gap that winds through
+        both sides of a thin wall is to be closed.
 
     Raises
     ------
@@ -101,7 +106,15 @@ def extract_mesh(
         smallest = float(radii.min()) * surface.frame.diagonal
         disks = Choice("disk_radius", smallest, "world units under the metric", why)
         mesh = join_triangles(
-            on_points, particles.coordinates, normals, radii, surface.frame, options, share_kept, resolution
+            on_points,
+            particles.coordinates,
+            normals,
+            radii,
+            surface.frame,
+            options,
+            share_kept,
+            resolution,
+            exact=exact,
         )
         refused = {"refused_uncovered": len(candidates.triangles) - len(on_points.triangles)}
         return replace(mesh, statistics=refused | mesh.statistics, choices=(disks, *mesh.choices))
@@ -116,6 +129,8 @@ def join_triangles(
     options: MeshingOptions,
     share_kept: float,
     resolution: int,
+    *,
+    exact: bool = False,
 ) -> Mesh:
     """Choose a manifold mesh from candidate triangles, and fill its holes.
 
@@ -127,7 +142,7 @@ def join_triangles(
         (m, 3) unit, of their points.
     radii
         (m,) of the disks that the cells were cut from, in R^d.
-    share_kept, resolution
+    share_kept, resolution, exact
         As for ``extract_mesh``.
 
     Raises
@@ -142,11 +157,13 @@ def join_triangles(
         raise CannotReconstruct(
             "No triangle holds on these points.", "They may be too few or too noisy; try fewer `particles`."
         )
-    return _fill_holes(coordinates[extracted.sources], extracted, frame, options, resolution)
+    trusted = normals[extracted.sources] if exact else None
+    return _fill_holes(coordinates[extracted.sources], trusted, extracted, frame, options, resolution)
 
 
 def _fill_holes(
     coordinates: NDArray[np.float64],
+    normals: NDArray[np.float64] | None,
     extracted: _core.ExtractedMesh,
     frame: UnitFrame,
     options: MeshingOptions,
@@ -163,14 +180,18 @@ def _fill_holes(
         why = f"{HOLES_FILLED:g} spacings of {resolution:,} vertices"
         choices = (Choice("fill_holes", size * frame.diagonal, "world units", why),)
     filled = _core.fill_holes(vertices, extracted.faces, size)
+    nearest = _core.nearest_neighbors(vertices, filled.vertices[len(vertices) :], 1)[:, 0]
+    sources = np.concatenate([np.arange(len(vertices)), nearest])  # the centre of a fan is as the vertex nearest to it
+    holes_filled = filled.filled
+    if filled.left > 0 and normals is not None:
+        filled = _core.close_gaps(filled.vertices, filled.faces, normals[sources], size)
+        holes_filled += filled.filled
     statistics: dict[str, int | float] = {
         name: getattr(extracted.counts, name) for name in dir(extracted.counts) if not name.startswith("_")
     }
-    statistics["holes_filled"] = filled.filled
+    statistics["holes_filled"] = holes_filled
     statistics["holes_left"] = filled.left
     statistics["faces_joined"] = len(filled.faces)
-    centres = _core.nearest_neighbors(vertices, filled.vertices[len(vertices) :], 1)[:, 0]
     closing = filled.faces[len(extracted.faces) :]
     statistics["area_filled"] = mesh_area(filled.vertices, closing) / mesh_area(filled.vertices, filled.faces)
-    coordinates = np.vstack([coordinates, coordinates[centres]])
-    return Mesh(filled.vertices, filled.faces, coordinates, statistics, choices, filled.vertices[closing])
+    return Mesh(filled.vertices, filled.faces, coordinates[sources], statistics, choices, filled.vertices[closing])

@@ -15,13 +15,13 @@
 #include "hdpea_cpp/base/checks.hpp"
 #include "hdpea_cpp/base/disjoint_sets.hpp"
 #include "hdpea_cpp/base/errors.hpp"
+#include "hdpea_cpp/mesh/boundary_loops.hpp"
 
 namespace hdpea {
 namespace {
 
 // CGAL tries a Delaunay triangulation first, whose point location may not terminate unless predicates are exact.
 using Point = CGAL::Exact_predicates_inexact_constructions_kernel::Point_3;
-using Loop = std::vector<Index>;
 
 // A hole of so few edges may fold back, unless its patch is a good part of its whole piece: then it is the border.
 constexpr std::size_t kFewEdges = 8;
@@ -63,29 +63,8 @@ class HoleFiller {
     }
   }
 
-  /// The boundary loops, each from its smallest vertex and in the order of those, as patches run along them.
   std::vector<Loop> loops() const {
-    std::vector<Index> next(static_cast<std::size_t>(vertices_.rows()), -1);
-    for (Index f = 0; f < faces_.rows(); ++f) {
-      for (int i = 0; i < 3; ++i) {
-        const Index from = faces_(f, i), to = faces_(f, (i + 1) % 3);
-        if (has_edge(to, from)) continue;
-        require(next[to] < 0, "fill_holes needs a vertex-manifold mesh");
-        next[to] = from;
-      }
-    }
-    std::vector<Loop> found;
-    for (Index start = 0; start < vertices_.rows(); ++start) {
-      if (next[start] < 0) continue;
-      Loop& loop = found.emplace_back();
-      for (Index v = start; next[v] >= 0;) {
-        loop.push_back(v);
-        const Index following = next[v];
-        next[v] = -1;
-        v = following;
-      }
-    }
-    return found;
+    return boundary_loops(faces_, vertices_.rows(), [&](Index from, Index to) { return has_edge(from, to); });
   }
 
   /// Fills a hole of at most the size; returns whether it did.

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "hdpea_cpp/base/errors.hpp"
+#include "hdpea_cpp/mesh/gap_closing.hpp"
 #include "hdpea_cpp/mesh/hole_filling.hpp"
 #include "hdpea_cpp/mesh/mesh_check.hpp"
 #include "hdpea_cpp/mesh/reaching.hpp"
@@ -28,6 +29,8 @@ struct Function {
 
 const Function kFunctions[] = {
     {"check_mesh", [](auto&... mesh) { check_mesh(mesh...); }},
+    {"close_gaps",
+     [](auto& vertices, auto& faces) { close_gaps(vertices, faces, Points::Zero(vertices.rows(), 3), 1); }},
     {"closest_surface_points", [](auto&... mesh) { closest_surface_points(mesh..., Points::Zero(1, 3)); }},
     {"count_self_intersections", [](auto&... mesh) { count_self_intersections(mesh...); }},
     {"fill_holes", [](auto&... mesh) { fill_holes(mesh..., 1); }},

@@ -79,6 +79,7 @@ CALLS: dict[str, tuple[Callable[..., Any], Arguments]] = {
             "counts": CANDIDATES.counts,
         },
     ),
+    "close_gaps": (_core.close_gaps, _mesh() | {"normals": np.zeros_like(VERTICES), "max_size": 1.0}),
     "face_outwards": (_core.face_outwards, _mesh()),
     "farthest_point_sampling": (_core.farthest_point_sampling, {"points": POINTS, "count": 5}),
     "fill_holes": (_core.fill_holes, {"vertices": VERTICES, "faces": FACES[:3], "max_size": np.inf}),

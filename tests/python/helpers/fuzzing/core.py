@@ -22,6 +22,7 @@ OF_VERTICES, OF_POINTS, OF_FACES = (
     {"faces", "triangles"},
 )
 MADE_OF_MESHES = {
+    "close_gaps",
     "fill_holes",
     "reach_points",
     "remesh_isotropically",
