@@ -95,6 +95,7 @@ def test_every_colmap_project(tmp_path: Path) -> None:
     assert re.fullmatch(r"meshes/church-\d{4}-\d\d-\d\d\.ply", made)
     assert not in_shell(script, tmp_path, QUICK)  # it is done
     (tmp_path / "projects/tower/dense").mkdir(parents=True)
+    assert _exit_code(script, tmp_path) == 1  # there is no cloud
     (tmp_path / "projects/tower/dense/fused.ply").write_bytes(b"ply\n")
     assert _exit_code(script, tmp_path) == 1
     assert [each.name for each in (tmp_path / "meshes").glob("*.ply")] == [Path(made).name]

@@ -56,7 +56,7 @@ def embed_learned(surface: Surface, vertices: int, options: EmbeddingOptions, pr
     if len(kept) < len(surface.points_in_unit):
         psi = Interpolation.of(points, normals, surface.points_in_unit, surface.normals)(psi)
     in_world, of_weights = spacing * surface.frame.diagonal, "what the weights were trained for"
-    limit = f", one for every {least:g} points: there is no finer one" if shown < vertices else ""
+    limit = f", one for every {least:g} points: there is no finer one" if round(shown) < vertices else ""
     choices = (
         Choice("metric_spacing", in_world, "world units", f"that of {round(shown):,} particles{limit}"),
         Choice("metric_scale", network.metric.scale * in_world, "world units", of_weights),

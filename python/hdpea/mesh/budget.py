@@ -79,6 +79,6 @@ def particles_wanted(
         choices.append(Choice("vertices", vertices, "", f"one for every {POINTS_PER_VERTEX} points"))
     why = "as many as vertices: the points can hardly show more"
     if particles > vertices or options.meshing.error is not None:
-        why = f"what {points_shown:,} points can show; the mesh is simplified from these"
+        why = f"spread on {points_shown:,} points; the mesh is simplified from these"
     choices.append(Choice("particles", particles, "", why))
     return particles, tuple(choices)

@@ -24,7 +24,7 @@ class EmbeddingOptions(Checked):
 
     embedding: str = option(
         "direct",
-        "direct: solved for on this cloud; learned: by a trained network, at once",
+        "direct: solved for on this cloud; learned: by a trained network, and fewer rounds",
         choices=("direct", "learned"),
     )
     weights: str | None = option(

@@ -35,8 +35,8 @@ class MeshingOptions(Checked):
     )
     fill_holes: Length | None = option(
         None,
-        "fill holes up to this size across, as 0.02 or 1%; default: 4 times the spacing of the vertices "
-        "that the points can show; 0: none",
+        "fill holes up to this size across, as 0.02 or 1%; default: 4 times the spacing of one vertex for every "
+        f"{POINTS_PER_VERTEX} points, or of those wanted if they are more; 0: none",
     )
     watertight: bool = option(False, "close every hole, whatever its size")
     min_component: int = option(

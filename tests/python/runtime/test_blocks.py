@@ -14,7 +14,7 @@ from hdpea.runtime.threads import limited_threads, thread_count
 @pytest.mark.parametrize("threads", [1, 3])
 def test_blocks_make_what_all_rows_make(count: int, threads: int) -> None:
     values = np.random.default_rng(0).random((count, 5))
-    with limited_threads(threads, pytorch=False):
+    with limited_threads(threads):
         assert thread_count() == threads
         found = in_blocks(lambda rows: np.quantile(values[rows], 0.25, axis=1), count)
     np.testing.assert_array_equal(found, np.quantile(values, 0.25, axis=1))
