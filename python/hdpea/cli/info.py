@@ -112,7 +112,7 @@ def _normals(facts: CloudFacts) -> str:
 
 
 def _needs(facts: CloudFacts, resources: Resources) -> str:
-    from hdpea.report.cost import PEAK_BYTES, TILED_DISK_BYTES, TILED_SECONDS
+    from hdpea.report.cost import PEAK_BYTES, TILED_DISK_BYTES, TILED_SECONDS, TILED_WHOLE_BYTES, WITHOUT_NORMALS
     from hdpea.surface.surface import MIN_POINTS
     from hdpea.tiling.plan import TILE_POINTS
 
@@ -120,10 +120,14 @@ def _needs(facts: CloudFacts, resources: Resources) -> str:
     if points < MIN_POINTS:
         return f"at least {MIN_POINTS} points"
     cost = f"about {facts.estimated_seconds:.0f} s and {facts.estimated_peak_bytes / 1e9:.1f} GB"
+    if not (facts.counts["usable_normals"] and facts.normals_fit):
+        cost += f", up to {WITHOUT_NORMALS * facts.estimated_peak_bytes / 1e9:.1f} since normals are estimated,"
     if facts.estimated_peak_bytes > resources.bytes():
         each = PEAK_BYTES.of(TILE_POINTS, round(TILE_POINTS * facts.default_vertices / points))
+        whole = TILED_WHOLE_BYTES.of(points, facts.default_vertices)
         return (
-            f"about {TILED_SECONDS * points:.0f} s in tiles with --jobs 2, {each / 1e9:.1f} GB in each process and "
+            f"about {TILED_SECONDS * points:.0f} s in tiles with --jobs 2, {each / 1e9:.1f} GB in each process, "
+            f"{whole / 1e9:.1f} GB in the end for the whole mesh, less with fewer --vertices, and "
             f"{TILED_DISK_BYTES * points / 1e9:.1f} GB of the disk, for {facts.default_vertices:,} vertices; "
             f"in one piece {cost}. --error and colours are for one piece: cut a larger cloud yourself"
         )
