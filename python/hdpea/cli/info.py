@@ -121,7 +121,7 @@ def _needs(facts: CloudFacts, resources: Resources) -> str:
         return f"at least {MIN_POINTS} points"
     cost = f"about {facts.estimated_seconds:.0f} s and {facts.estimated_peak_bytes / 1e9:.1f} GB"
     if not (facts.counts["usable_normals"] and facts.normals_fit):
-        cost += f", up to {WITHOUT_NORMALS * facts.estimated_peak_bytes / 1e9:.1f} since normals are estimated,"
+        cost += f" (up to {WITHOUT_NORMALS * facts.estimated_peak_bytes / 1e9:.1f}, since normals are estimated)"
     if facts.estimated_peak_bytes > resources.bytes():
         each = PEAK_BYTES.of(TILE_POINTS, round(TILE_POINTS * facts.default_vertices / points))
         whole = TILED_WHOLE_BYTES.of(points, facts.default_vertices)

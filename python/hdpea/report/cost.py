@@ -43,7 +43,7 @@ PEAK_BYTES = Cost(fixed=255e6, per_thousand_points=2.56e6, per_thousand_vertices
 
 
 WITHOUT_NORMALS = 1.3
-"""How many times as much memory a cloud may take whose normals are estimated: a tile of lidar of 237,521 points does."""
+"""How many times as much memory a cloud may take whose normals are estimated: a lidar tile of 237,521 points does."""
 
 TILED_SECONDS = 0.1e-3
 """Seconds for each point of a cloud in tiles, on two cores: 0.19 ms of a processor, of 2,000,000 points
