@@ -109,6 +109,7 @@ def test_the_report_tells_everything(tmp_path: Path) -> None:
     chosen = {choice["name"]: choice for choice in told["choices"]}
     wanted = {
         "vertices",
+        "particles",
         "normal_neighbors",
         "orient",
         "denoise",

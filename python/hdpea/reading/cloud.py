@@ -283,10 +283,12 @@ def first_occurrences(rows: NDArray[np.float64]) -> NDArray[np.int64]:
 def unit_or_zero(vectors: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return the vectors (n, 3) at length 1; those that are zero or not finite become zero.
 
-    Those of length 1 but for rounding stay as they are: what was read, given on as arrays, makes the same mesh.
+    Those of length 1 but for rounding, or of a power of 2 times that, keep their digits: what was read, given on as
+    arrays, makes the same mesh.
     """
     with np.errstate(invalid="ignore", over="ignore", divide="ignore"):
         lengths = np.linalg.norm(vectors, axis=1, keepdims=True)
         usable = np.isfinite(lengths) & (lengths > 0)
-        scales = np.where(abs(lengths - 1) < UNIT, 1.0, lengths)
-        return np.where(usable, vectors / scales, 0.0)
+        powers = np.exp2(np.rint(np.log2(lengths)))
+        exact = usable & (abs(lengths / powers - 1) < UNIT)
+        return np.where(usable, vectors / np.where(exact, powers, lengths), 0.0)
