@@ -60,10 +60,10 @@ def mesh_shape(
     """
     colorings: list[Coloring | OwnColors] = []
     bare = np.zeros(len(faces), dtype=bool)
-    if points is not None and len(points):
-        distances, bare = _distances_at_vertices(vertices, faces, _rows(points, MOST_POINTS))
-        colorings.append(distances)
     areas = np.linalg.norm(area_vectors(vertices, faces), axis=1)
+    if points is not None and len(points):
+        distances, bare = _distances_at_vertices(vertices, faces, areas, _rows(points, MOST_POINTS))
+        colorings.append(distances)
     curvatures = largest_curvatures(vertices, faces)
     most = _percentile(abs(curvatures), SATURATED)
     note = "Principal curvature of largest magnitude, in 1 / unit of the file: red convex, blue concave."
@@ -118,9 +118,9 @@ def _with_own_corners(shape: MeshShape, chosen: NDArray[np.bool_]) -> MeshShape:
 
 
 def _distances_at_vertices(
-    vertices: Rows, faces: NDArray[np.int64], points: Rows
+    vertices: Rows, faces: NDArray[np.int64], areas: Rows, points: Rows
 ) -> tuple[Coloring, NDArray[np.bool_]]:
-    """Return the distances of points at the vertices, and which faces (f,) have none, but should by their area."""
+    """Return the distances of points at the vertices, and which faces (f,) have none, but should by their `areas`."""
     with core_errors_translated():
         nearest = _core.closest_surface_points(vertices, faces, points)
     largest = float(nearest.distance.max()) or 1.0
@@ -131,7 +131,6 @@ def _distances_at_vertices(
     note = (
         "Distance of the points on a vertex's faces, root mean square, in units of the file; dark grey: there are none."
     )
-    areas = np.linalg.norm(area_vectors(vertices, faces), axis=1)
     bare = (counts == 0) & (areas * len(points) > EXPECTED * areas.sum())
     return Coloring(DISTANCE, distances, 0.0, _percentile(distances, SATURATED), note), bare
 

@@ -90,8 +90,7 @@ class Comparison(NamedTuple):
 def compare(mesh: Mesh, prepared: Preparation, vertices: int) -> Comparison:
     """Compare a mesh of so many `vertices` with its points."""
     given, embedded = prepared.oriented.surface, prepared.surface
-    distances = distances_to(mesh, given)
-    of_embedded = distances if embedded is given else distances_to(mesh, embedded)
+    distances, of_embedded = _distances(mesh, prepared)
     diagonal = given.frame.diagonal
     area = mesh_area(mesh.vertices_in_unit, mesh.faces)
     vertex_spacing = float(np.sqrt(area / len(mesh.vertices_in_unit)))
@@ -102,6 +101,13 @@ def compare(mesh: Mesh, prepared: Preparation, vertices: int) -> Comparison:
         of_embedded,
         HeightDifferences.of(height_differences(mesh, given, distances) * diagonal) if is_height_field(mesh) else None,
     )
+
+
+def _distances(mesh: Mesh, prepared: Preparation) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Return how far the points (n,) are from a mesh, as they were given and as embedded, in the unit frame."""
+    given, embedded = prepared.oriented.surface, prepared.surface
+    distances = distances_to(mesh, given)
+    return distances, distances if embedded is given else distances_to(mesh, embedded)
 
 
 def coarseness(distances: Distances, diagonal: float, options: MeshingOptions) -> Iterator[str]:
@@ -123,10 +129,9 @@ def level_facts(mesh: Mesh, prepared: Preparation) -> LevelFacts:
         If it is not manifold and oriented.
     """
     facts = mesh_facts(mesh)
-    given, embedded = prepared.oriented.surface, prepared.surface
-    distances, diagonal = distances_to(mesh, given), given.frame.diagonal
-    of_embedded = distances if embedded is given else distances_to(mesh, embedded)
-    reached = ErrorBound(embedded, 0.0).reached(mesh, distances=of_embedded).in_world(diagonal)
+    given, diagonal = prepared.oriented.surface, prepared.surface.frame.diagonal
+    distances, of_embedded = _distances(mesh, prepared)
+    reached = ErrorBound(prepared.surface, 0.0).reached(mesh, distances=of_embedded).in_world(diagonal)
     rms = Distances.of(distances * diagonal, given.spacing * diagonal).rms
     return LevelFacts(facts.vertices, facts.faces, rms, reached.larger)
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hdpea_cpp/mesh/boundary_loops.hpp"
 
+#include "hdpea_cpp/base/area_vector.hpp"
 #include "hdpea_cpp/base/errors.hpp"
 
 namespace hdpea {
@@ -28,6 +29,22 @@ std::vector<Loop> boundary_loops(const FacesRef& faces, Index vertices,
     }
   }
   return found;
+}
+
+double perimeter(const PointsRef& vertices, const Loop& loop) {
+  double sum = 0;
+  for (std::size_t i = 0; i < loop.size(); ++i) {
+    sum += (vertices.row(loop[(i + 1) % loop.size()]) - vertices.row(loop[i])).norm();
+  }
+  return sum;
+}
+
+double vector_area(const PointsRef& vertices, const Loop& loop) {
+  Eigen::RowVector3d twice = Eigen::RowVector3d::Zero();
+  for (std::size_t i = 1; i + 1 < loop.size(); ++i) {
+    twice += area_vector(vertices.row(loop[0]), vertices.row(loop[i]), vertices.row(loop[i + 1]));
+  }
+  return twice.norm() / 2;
 }
 
 }  // namespace hdpea

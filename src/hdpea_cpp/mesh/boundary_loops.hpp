@@ -21,4 +21,10 @@ using Loop = std::vector<Index>;
 std::vector<Loop> boundary_loops(const FacesRef& faces, Index vertices,
                                  const std::function<bool(Index, Index)>& has_edge);
 
+/// How long a loop of the vertices (v, 3) is.
+double perimeter(const PointsRef& vertices, const Loop& loop);
+
+/// The length of a loop's vector area: no patch is smaller.
+double vector_area(const PointsRef& vertices, const Loop& loop);
+
 }  // namespace hdpea

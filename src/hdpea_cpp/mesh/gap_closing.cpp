@@ -81,7 +81,7 @@ class GapCloser {
   }
 
   bool close(const Loop& loop) {
-    if (loop.size() > kMostEdges || is_too_large(vector_area(loop), loop)) return false;
+    if (loop.size() > kMostEdges || is_too_large(vector_area(vertices_, loop), loop)) return false;
     const std::vector<Corners> patch = cheapest_patch(loop);
     if (patch.empty()) return false;
     double area = 0, agreeing = 0;
@@ -133,18 +133,7 @@ class GapCloser {
     });
   }
 
-  bool is_too_large(double area, const Loop& loop) const {
-    double perimeter = 0;
-    for (std::size_t i = 0; i < loop.size(); ++i) perimeter += distance(loop[i], loop[(i + 1) % loop.size()]);
-    return 4 * area > max_size_ * perimeter;
-  }
-
-  /// No patch is smaller.
-  double vector_area(const Loop& loop) const {
-    Eigen::RowVector3d twice = Eigen::RowVector3d::Zero();
-    for (std::size_t i = 1; i + 1 < loop.size(); ++i) twice += normal({loop[0], loop[i], loop[i + 1]});
-    return twice.norm() / 2;
-  }
+  bool is_too_large(double area, const Loop& loop) const { return 4 * area > max_size_ * perimeter(vertices_, loop); }
 
   std::vector<Corners> cheapest_patch(const Loop& loop) const {
     const int length = static_cast<int>(loop.size());

@@ -69,12 +69,12 @@ class HoleFiller {
 
   /// Fills a hole of at most the size; returns whether it did.
   bool fill(const Loop& loop, double max_size) {
-    const double perimeter = length(loop);
+    const double largest = max_size * perimeter(vertices_, loop);
     // No patch is smaller than the loop's vector area, so large borders need not be triangulated at all.
-    if (4 * vector_area(loop) > max_size * perimeter) return false;
+    if (4 * vector_area(vertices_, loop) > largest) return false;
     const std::vector<PatchFace> patch = triangulated(loop);
     const bool fan = !fits(loop, patch), not_searched = patch.empty() && loop.size() > kEdgesForAllPatches;
-    const bool too_large = 4 * (fan ? fan_area(loop) : area(loop, patch)) > max_size * perimeter;
+    const bool too_large = 4 * (fan ? fan_area(loop) : area(loop, patch)) > largest;
     if (std::isfinite(max_size) && (not_searched || too_large || folds_back(loop, patch))) return false;
     if (fan) {
       add_fan(loop);
@@ -97,20 +97,6 @@ class HoleFiller {
 
  private:
   bool has_edge(Index from, Index to) const { return opposite_.count(directed_key(from, to)) > 0; }
-
-  double length(const Loop& loop) const {
-    double sum = 0;
-    for (std::size_t i = 0; i < loop.size(); ++i) {
-      sum += (vertices_.row(loop[(i + 1) % loop.size()]) - vertices_.row(loop[i])).norm();
-    }
-    return sum;
-  }
-
-  double vector_area(const Loop& loop) const {
-    Eigen::RowVector3d twice = Eigen::RowVector3d::Zero();
-    for (std::size_t i = 1; i + 1 < loop.size(); ++i) twice += area_vector(loop[0], loop[i], loop[i + 1]);
-    return twice.norm() / 2;
-  }
 
   double area(const Loop& loop, const std::vector<PatchFace>& patch) const {
     double twice = 0;
