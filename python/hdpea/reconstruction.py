@@ -1,42 +1,24 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""All stages, one after the other: a cloud enters, a mesh leaves."""
+"""The whole program as one function: points of any kind enter, a mesh leaves."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from typing import Any, NamedTuple
 
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-from hdpea.embedding import Embedder, embed_surface
-from hdpea.embedding.device import device_choices
-from hdpea.embedding.tangents import tangent_bases
+from hdpea.embedding import Embedder
 from hdpea.errors import core_errors_translated
-from hdpea.frontend.cleaning import surface_cloud
-from hdpea.geometry.texture import Texture
-from hdpea.mesh.assembly import assemble_mesh
-from hdpea.mesh.attributes import vertex_attributes
-from hdpea.mesh.budget import particles_wanted
-from hdpea.mesh.extraction import Mesh
-from hdpea.mesh.levels import coarser_levels
-from hdpea.mesh.noise import within_noise
-from hdpea.mesh.sides import FacedMesh, facing_out
-from hdpea.mesh.texture import require_colors, texture_of
-from hdpea.options import Classes, EmbeddingOptions, Length, MeshingOptions, Options
+from hdpea.mesh.texture import require_colors
+from hdpea.options import Classes, EmbeddingOptions, Length, Options
 from hdpea.options.settings import changed
-from hdpea.reading.attributes import split_colors
-from hdpea.reading.cloud import PointCloud, cleaned_cloud
+from hdpea.pipeline import reconstruct_cloud
+from hdpea.reading.cloud import cleaned_cloud
 from hdpea.reading.objects import PointsLike
-from hdpea.report.achieved_error import AchievedError, achieved_error
-from hdpea.report.measurement import Comparison, coarseness, compare, level_facts, mesh_facts, missed_targets
-from hdpea.report.report import Journal, MeshFacts, Report
-from hdpea.result import Level, Reconstruction
-from hdpea.runtime.clock import StageClock
-from hdpea.runtime.progress import ProgressCallback, tell
+from hdpea.result import Reconstruction
+from hdpea.runtime.progress import ProgressCallback
 from hdpea.runtime.pytorch import check_pytorch, load_in_background, torch_device
 from hdpea.runtime.threads import limited_threads
-from hdpea.surface.preparation import Preparation, prepare_surface
-from hdpea.surface.surface import Surface
 
 PHASES = (
     "cleaning",
@@ -168,120 +150,8 @@ def reconstruct(
     if options.embedding.device != EmbeddingOptions.device:
         torch_device(options.embedding.device)  # refused now, not when it is needed
     load_in_background()
-    journal = Journal(options=options)
-    clock = journal.clock
     with limited_threads(options.threads), core_errors_translated():
         cloud = cleaned_cloud(points, normals, sensors, attributes)
         if options.texture is not None:
             require_colors(cloud.attributes)
-        with clock.stage("cleaning"):
-            tell(progress, "cleaning", 0)
-            found = surface_cloud(cloud, options.cleaning)
-            # Nothing that is returned of the mesh is in the order of the points.
-            cloud = found.in_order_of_space()
-            tell(progress, "cleaning", 1)
-        shown = found.points_shown
-        per_vertex = len(cloud.points) / options.resolution_of(shown)
-        prepared = prepare_surface(cloud, options.normals, options.denoising, per_vertex, progress, clock)
-        budgeted, noise_choices = within_noise(options, prepared, shown)
-        # Under an error bound the collapses find out themselves what the points show.
-        exact = prepared.exact and not noise_choices and options.meshing.error is None
-        _, count_choices = particles_wanted(budgeted, len(cloud.points), shown, exact=exact)
-        surface, resolution = prepared.surface, budgeted.resolution_of(shown)
-        with clock.stage("embedding"):
-            embedded = embed_surface(surface, resolution, options.embedding, progress, embedder)
-            per_vertex = len(cloud.points) / resolution
-            bases = tangent_bases(embedded.coordinates, surface.normals, surface.neighbors, per_vertex)
-        mesh = assemble_mesh(surface, embedded.coordinates, bases, budgeted, progress, clock, shown, exact=exact)
-        # Before any piece is turned, as its points are not.
-        carried = _carried(mesh, surface, cloud, clock)
-        texture_of_points = _texture(mesh, surface, cloud, options.texture, clock)
-        levels = _levels(mesh, prepared, options, cloud, journal)
-        faced = facing_out(mesh) if prepared.oriented.computed_sides else FacedMesh(mesh)
-        mesh = faced.mesh
-        wanted = budgeted.vertices_of(shown) if options.meshing.error is None else len(mesh.vertices_in_unit)
-        measured = _measured(mesh, prepared, options.meshing, wanted, progress, clock)
-    journal.source |= {"format": cloud.format} | ({} if cloud.crs is None else {"crs": cloud.crs})
-    journal.counts |= cloud.counts() | found.counts() | {"normals_estimated": prepared.oriented.estimated}
-    journal.choices += device_choices(options.embedding.device)
-    journal.choices += [*prepared.choices, *noise_choices, *count_choices, *embedded.choices, *mesh.choices]
-    journal.meshing |= mesh.statistics
-    compared = measured.comparison
-    coarse = coarseness(compared.distances, surface.frame.diagonal, options.meshing)
-    about_mesh = [*faced.notes, *coarse, *compared.missing_part()]
-    journal.notes += [*cloud.notes, *found.notes, *prepared.notes, *about_mesh]
-    targets = missed_targets(mesh, measured.facts, options.meshing)
-    journal.missed += [*prepared.missed, *targets, *measured.error.missed(), *compared.agreement.missed()]
-    report = Report.of(
-        journal, measured.facts, compared.distances, compared.agreement, measured.error, compared.along_z
-    )
-    return Reconstruction(
-        surface.frame.to_world(mesh.vertices_in_unit),
-        mesh.faces,
-        report,
-        found.dropped,
-        carried,
-        cloud.crs,
-        texture_of_points,
-        levels,
-    )
-
-
-class _Measured(NamedTuple):
-    """What is found about a mesh in the end."""
-
-    facts: MeshFacts
-    comparison: Comparison
-    error: AchievedError
-
-
-def _measured(
-    mesh: Mesh,
-    prepared: Preparation,
-    meshing: MeshingOptions,
-    wanted: int,
-    progress: ProgressCallback | None,
-    clock: StageClock,
-) -> _Measured:
-    """Measure a mesh against the points that it was made of, of which so many vertices were `wanted`."""
-    with clock.stage("measuring"):
-        tell(progress, "measuring", 0)
-        facts = mesh_facts(mesh)
-        comparison = compare(mesh, prepared, wanted)
-        given = prepared.oriented.surface
-        error = achieved_error(mesh, prepared.surface, given, meshing.error, comparison.of_embedded)
-        tell(progress, "measuring", 1)
-    return _Measured(facts, comparison, error)
-
-
-def _levels(
-    mesh: Mesh, prepared: Preparation, options: Options, cloud: PointCloud, journal: Journal
-) -> tuple[Level, ...]:
-    """Return the coarser levels of a mesh; a stage, and in the journal, only where there are any."""
-    if options.meshing.lod == 1:
-        return ()
-    made, surface = list[Level](), prepared.surface
-    with journal.clock.stage("levels"):
-        for each in coarser_levels(mesh, surface, options):
-            faces = (facing_out(each).mesh if prepared.oriented.computed_sides else each).faces
-            attributes = vertex_attributes(each, surface, cloud.attributes)
-            made.append(Level(surface.frame.to_world(each.vertices_in_unit), faces, attributes))
-            journal.levels.append(level_facts(each, prepared))
-    return tuple(made)
-
-
-def _carried(mesh: Mesh, surface: Surface, cloud: PointCloud, clock: StageClock) -> dict[str, NDArray[Any]]:
-    """Return the attributes of a cloud at the vertices of its mesh; a stage only where there are any."""
-    if not cloud.attributes:
-        return {}
-    with clock.stage("attributes"):
-        return vertex_attributes(mesh, surface, cloud.attributes)
-
-
-def _texture(mesh: Mesh, surface: Surface, cloud: PointCloud, size: int | None, clock: StageClock) -> Texture | None:
-    """Return the texture, if one is asked for."""
-    colors, _ = split_colors(cloud.attributes)
-    if size is None or colors is None:
-        return None
-    with clock.stage("texture"):
-        return texture_of(mesh, surface, colors, size)
+        return reconstruct_cloud(cloud, options, progress, embedder)

@@ -8,31 +8,21 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from hdpea import _core
-from hdpea.geometry.triangles import mesh_area
-from hdpea.mesh.anisotropic_remeshing import remesh_anisotropically
 from hdpea.mesh.budget import Budget
-from hdpea.mesh.creases import align_to_creases, find_creases, with_crease_edges_counted
+from hdpea.mesh.creases import find_creases, with_crease_edges_counted
 from hdpea.mesh.error_bound import ErrorBound, mended_within, simplify_within
 from hdpea.mesh.extraction import Mesh, extract_mesh
+from hdpea.mesh.fitting import FitTarget
 from hdpea.mesh.particles import spread_particles
-from hdpea.mesh.reaching import reach_points
-from hdpea.mesh.refinement import refine_mesh
 from hdpea.mesh.repair import repair_mesh
-from hdpea.mesh.simplification import simplify_mesh
-from hdpea.options import Options, ParticleOptions
+from hdpea.options import MeshingOptions, Options, ParticleOptions
 from hdpea.options.particles import ITERATIONS, ITERATIONS_OF_MANY
 from hdpea.runtime.clock import StageClock
 from hdpea.runtime.progress import ProgressCallback, of_phase, tell
-from hdpea.surface.surface import MIN_POINTS, Surface
+from hdpea.surface.surface import Surface
 
 ATTEMPTS = 3
 """How often at most particles are spread, each time more of them, where their mesh has too few vertices."""
-
-LEFT_OUT = 2.0
-"""Distance from the mesh, in spacings of its vertices, from which points do not draw it where pieces were dropped.
-
-They are those of these pieces: of CGAL's hippo1 and hippo2 they drew a spike out of a foot."""
 
 
 @dataclass(frozen=True)
@@ -46,6 +36,10 @@ class _Counts:
     @property
     def many(self) -> bool:
         return self.particles > self.vertices
+
+    def wanted(self, asked: MeshingOptions) -> MeshingOptions:
+        """Return what the mesh is to have in the end: these vertices where there are more particles, and none asked."""
+        return replace(asked, vertices=self.vertices) if asked.any_size and self.many else asked
 
 
 def assemble_mesh(
@@ -93,57 +87,55 @@ def assemble_mesh(
         options.resolution_of(points_shown),
     )
     mesh = _mesh_of_particles(surface, coordinates, bases, options, counts, progress, clock, exact=exact)
+    reaches = exact and counts.many and options.refinement.refine
     with clock.stage("refinement"):
-        creases = find_creases(surface)
-        kept = _points_of_kept_pieces(mesh, surface, counts.vertices)
-        if kept is not None:
-            surface = Surface.of(surface.frame, surface.points_in_unit[kept], surface.normals[kept])
-            coordinates, bases = coordinates[kept], bases[kept]
-        mesh = align_to_creases(mesh, creases)
-        mesh = refine_mesh(mesh, surface, options.refinement, of_phase(progress, "refinement"))
-        reaches = exact and counts.many and options.refinement.refine
+        every_point = FitTarget(surface, coordinates, bases, find_creases(surface), options.refinement, progress)
+        target = every_point.of_kept_pieces(mesh, counts.vertices)
+        mesh = target.fitted(mesh)
         if reaches:
-            mesh = reach_points(mesh, surface, coordinates, counts.resolution)
-    bound = None
-    if options.meshing.error is not None:
-        bound = ErrorBound(surface, surface.frame.length_to_unit(options.meshing.error))
-        with clock.stage("simplification"):
-            mesh = simplify_within(mesh, bound, of_phase(progress, "simplification"))
-    wanted = options.meshing
-    if wanted.any_size and wanted.error is None and counts.many:
-        wanted = replace(wanted, vertices=counts.vertices)
-    if Budget.of(wanted).excess(mesh) > 0:
-        with clock.stage("simplification"):
-            mesh = simplify_mesh(mesh, surface, wanted, of_phase(progress, "simplification"))
-        if bound is None:
-            with clock.stage("remeshing"):
-                mesh = remesh_anisotropically(mesh, surface, coordinates, bases, of_phase(progress, "remeshing"))
-        with clock.stage("refinement"):
-            mesh = align_to_creases(mesh, creases)
-            mesh = refine_mesh(mesh, surface, options.refinement, of_phase(progress, "refinement"))
-            if reaches and bound is None:
-                fitted = mesh
-                mesh = reach_points(fitted, surface, coordinates, len(fitted.vertices_in_unit))
-                if len(mesh.vertices_in_unit) > len(fitted.vertices_in_unit):
-                    mesh = simplify_mesh(mesh, surface, wanted)
-    with clock.stage("repair"):
-        tell(progress, "repair", 0)
-        mesh = repair_mesh(mesh, surface.points_in_unit, exact=exact) if bound is None else mended_within(mesh, bound)
-        tell(progress, "repair", 1)
-    return with_crease_edges_counted(mesh, creases)
+            mesh = target.reached(mesh, counts.resolution)
+    if options.meshing.error is None:
+        mesh = _within_budget(mesh, target, counts.wanted(options.meshing), clock, reaches=reaches)
+        with clock.stage("repair"):
+            tell(progress, "repair", 0)
+            mesh = repair_mesh(mesh, target.surface.points_in_unit, exact=exact)
+    else:
+        bound = ErrorBound(target.surface, surface.frame.length_to_unit(options.meshing.error))
+        mesh = _within_error(mesh, target, bound, options.meshing, clock)
+        with clock.stage("repair"):
+            tell(progress, "repair", 0)
+            mesh = mended_within(mesh, bound)
+    tell(progress, "repair", 1)
+    return with_crease_edges_counted(mesh, target.creases)
 
 
-def _points_of_kept_pieces(mesh: Mesh, surface: Surface, vertices: int) -> NDArray[np.int64] | None:
-    """Return the rows (m,) of the points that are not of pieces dropped from a mesh of so many vertices in the end.
+def _within_budget(mesh: Mesh, target: FitTarget, wanted: MeshingOptions, clock: StageClock, *, reaches: bool) -> Mesh:
+    """Return the mesh with no more vertices or faces than are wanted, evened out and fitted anew if it had more."""
+    if Budget.of(wanted).excess(mesh) <= 0:
+        return mesh
+    with clock.stage("simplification"):
+        mesh = target.simplified(mesh, wanted)
+    with clock.stage("remeshing"):
+        mesh = target.remeshed(mesh)
+    with clock.stage("refinement"):
+        mesh = target.fitted(mesh)
+        if not reaches:
+            return mesh
+        reached = target.reached(mesh, len(mesh.vertices_in_unit))
+        more = len(reached.vertices_in_unit) > len(mesh.vertices_in_unit)
+        return target.simplified(reached, wanted) if more else reached
 
-    None if all are kept.
-    """
-    if not mesh.statistics.get("dropped_components"):
-        return None
-    spacing = np.sqrt(mesh_area(mesh.vertices_in_unit, mesh.faces) / vertices)
-    distances = _core.closest_surface_points(mesh.vertices_in_unit, mesh.faces, surface.points_in_unit).distance
-    kept = np.flatnonzero(distances <= LEFT_OUT * spacing)
-    return kept if MIN_POINTS <= len(kept) < len(distances) else None
+
+def _within_error(mesh: Mesh, target: FitTarget, bound: ErrorBound, wanted: MeshingOptions, clock: StageClock) -> Mesh:
+    """Return the mesh with as few faces as keep a bound, and no more than are wanted, which may break it."""
+    with clock.stage("simplification"):
+        mesh = simplify_within(mesh, bound, of_phase(target.progress, "simplification"))
+    if Budget.of(wanted).excess(mesh) <= 0:
+        return mesh
+    with clock.stage("simplification"):
+        mesh = target.simplified(mesh, wanted)
+    with clock.stage("refinement"):
+        return target.fitted(mesh)
 
 
 def _mesh_of_particles(

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from hdpea import Reconstruction, _core, reconstruct
 from hdpea.errors import Interrupted
-from hdpea.mesh import assembly
+from hdpea.mesh import fitting
 
 
 def evenness(mesh: Reconstruction) -> float:
@@ -23,7 +23,7 @@ def evenness(mesh: Reconstruction) -> float:
 
 def test_collapses_alone_leave_fewer_regular_vertices(monkeypatch: pytest.MonkeyPatch) -> None:
     remeshed = evenness(mesh_of("sphere"))
-    monkeypatch.setattr(assembly, "remesh_anisotropically", lambda mesh, *_: mesh)
+    monkeypatch.setattr(fitting, "remesh_anisotropically", lambda mesh, *_: mesh)
     assert remeshed > evenness(reconstruct(*cloud_of("sphere"), options())) + 0.1
 
 
