@@ -10,6 +10,7 @@ from pathlib import Path
 from hdpea.cli.parameters import PATH
 from hdpea.errors import HdpeaError, UsageError
 from hdpea.runtime.marks import is_marked
+from hdpea.runtime.names import nearest_name
 
 STANDARD_STREAM = "-"
 FORMATS = ("ply", "obj", "stl", "off", "glb")
@@ -58,11 +59,20 @@ def destinations(files: Sequence[str], out_dir: Path | None, merge: bool, mesh_f
             raise UsageError("What is written to standard output needs a `mesh_format`.", "`mesh_format='ply'`, say.")
         return [Destination(tuple(sources), None, f".{mesh_format}")]
     output: Path = PATH.convert(last, None, None)
-    if output.suffix[1:].lower() not in FORMATS and output.is_file():
-        raise UsageError(f"{output} is no name of a mesh, but a file that exists.", _hint_on(sources, output))
+    if output.suffix[1:].lower() not in FORMATS:
+        if output.is_file():
+            raise UsageError(f"{output} is no name of a mesh, but a file that exists.", _hint_on(sources, output))
+        if _is_no_cloud(sources):
+            raise UsageError(f"{output} is no name of a mesh.", _hint_on(sources, nearest_name(output) or output))
     if mesh_format is not None and output.suffix.lower() != f".{mesh_format}":
         raise UsageError(f"{output} does not end in .{mesh_format}, its `mesh_format`.", "The extension says enough.")
     return [Destination(tuple(sources), output, output.suffix.lower())]
+
+
+def _is_no_cloud(sources: Sequence[str]) -> bool:
+    """Whether the only source is an STL, or is called like a mesh and is not there."""
+    path = Path(sources[0])
+    return len(sources) == 1 and path.suffix[1:].lower() in FORMATS and (path.suffix == ".stl" or not path.exists())
 
 
 def _hint_on(sources: Sequence[str], scan: Path) -> str:
@@ -70,7 +80,7 @@ def _hint_on(sources: Sequence[str], scan: Path) -> str:
     first, *others = sources
     if not others and Path(first).suffix[1:].lower() in FORMATS:
         return f"The cloud comes first, then the mesh: {scan} {first}" + (
-            f". {_SEVERAL}" if Path(first).exists() else ""
+            f". {_SEVERAL}" if Path(first).suffix != ".stl" and Path(first).exists() else ""
         )
     return f"Name a mesh: {scan.stem}.{FORMATS[0]}, say. {_SEVERAL}"
 

@@ -59,7 +59,7 @@ def command(*, sources: tuple[Path, ...], page: Path | None, up: str | None, for
     write_page(written, title, shapes, figures, coloring=DISTANCE if figures else COLOR, beside=beside, up=up)
     click.echo(f"{written}: {written.stat().st_size / 1e6:.1f} MB; it opens in any browser", err=True)
     if page is None and not webbrowser.open(written.resolve().as_uri()):
-        click.echo("No browser was found here: open it where there is one.", err=True)
+        click.echo("No browser could be opened here: open it where there is one.", err=True)
 
 
 def _figures(shapes: Sequence[Shape]) -> Iterator[tuple[str, str]]:

@@ -5,13 +5,13 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Sequence
-from difflib import get_close_matches
 from pathlib import Path, PurePath
 
 from hdpea.errors import UnreadableInput
 from hdpea.reading.cloud import PointCloud, cleaned, require_points
 from hdpea.reading.formats import CLOUD_FORMATS, DAMAGE, parse_points
 from hdpea.reading.merging import merged
+from hdpea.runtime.names import nearest_name
 
 __all__ = ["CLOUD_FORMATS", "DAMAGE", "PointCloud", "parse_points", "read", "read_bytes", "read_points", "read_scans"]
 
@@ -82,7 +82,7 @@ def read_bytes(path: Path) -> bytes:
     try:
         return path.read_bytes()
     except FileNotFoundError as error:
-        near = _nearest_name(path)
+        near = nearest_name(path)
         hint = f"Did you mean {near}?" if near else "Check the spelling and the folder."
         if "*" in path.name:
             hint = "No file there has such a name."
@@ -91,11 +91,3 @@ def read_bytes(path: Path) -> bytes:
         raise UnreadableInput(f"{path} is a folder, not a file.", "Give one file.") from error
     except OSError as error:
         raise UnreadableInput(f"Cannot read {path}: {error.strerror}.", "Check its permissions.") from error
-
-
-def _nearest_name(path: Path) -> Path | None:
-    try:
-        names = [each.name for each in path.parent.iterdir() if each.exists()]  # not links that lead nowhere
-    except OSError:
-        return None
-    return next((path.parent / near for near in get_close_matches(path.name, names, 1, cutoff=0.75)), None)

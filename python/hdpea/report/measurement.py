@@ -141,7 +141,9 @@ def missed_targets(mesh: Mesh, facts: MeshFacts, options: MeshingOptions) -> Ite
     budget = Budget.of(options)
     excess = budget.excess(mesh)
     # With an error, the number is the most there may be.
-    if excess > 0 or (excess < 0 and options.error is None):
+    if excess > 0:
+        yield f"{budget.comparison(mesh)} Fewer would not hold together: ask for more."
+    elif excess < 0 and options.error is None:
         yield budget.comparison(mesh)
     if options.watertight and not facts.closed:
         yield f"The mesh is not watertight: {facts.boundary_loops} boundary loops are left."

@@ -41,7 +41,7 @@ def check_output(path: Path, extensions: Collection[str]) -> None:
     if path.suffix.lower() not in extensions:
         listed = ", ".join(extensions)
         near = get_close_matches(path.suffix.lower(), extensions, n=1) or list(extensions)
-        hint = f"The extension is the format: {path.with_suffix(near[0]).name}, say."
+        hint = f"The extension is the format: {path.stem.rstrip('.')}{near[0]}, say."
         raise UsageError(f"Cannot write {path}: its extension is not one of {listed}.", hint)
     try:
         earlier = _status(path)

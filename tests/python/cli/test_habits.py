@@ -64,15 +64,18 @@ def test_a_mesh_that_hardly_shows_the_shape_is_told(
     ("typed", "meant"),
     [
         (["a.stl", "{scan}"], "The cloud comes first, then the mesh: {scan} a.stl"),
+        (["a.stl", "{misspelt}"], "The cloud comes first, then the mesh: {scan} a.stl"),
         (["{scan}", "mesh.stl", "watertight"], "it begins with two dashes: --watertight"),
         (["{scan}", "mesh"], "mesh.obj, say"),
+        (["{scan}", "mesh."], " mesh.obj, say"),
         (["{scan}", "mesh.gltf"], "mesh.glb, say"),
     ],
 )
 def test_a_name_that_cannot_be_meant_gets_one_that_can(
     typed: list[str], meant: str, scan: str, failed: Callable[..., str]
 ) -> None:
-    assert meant.format(scan=scan) in failed(2, "reconstruct", *(each.format(scan=scan) for each in typed))
+    names = {"scan": scan, "misspelt": scan.replace("scan.npy", "scam.npy")}
+    assert meant.format(**names) in failed(2, "reconstruct", *(each.format(**names) for each in typed))
 
 
 def test_an_open_stl_is_told_and_what_else_was_written(scan: str, tmp_path: Path, capsys: Capture) -> None:
