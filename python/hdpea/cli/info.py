@@ -127,8 +127,17 @@ def _needs(facts: CloudFacts, resources: Resources) -> str:
         whole = TILED_WHOLE_BYTES.of(points, facts.default_vertices)
         return (
             f"about {TILED_SECONDS * points:.0f} s in tiles with --jobs 2, {each / 1e9:.1f} GB in each process, "
-            f"{whole / 1e9:.1f} GB in the end for the whole mesh, less with fewer --vertices, and "
+            f"{whole / 1e9:.1f} GB in the end for the whole mesh{_fewer(whole, resources)}, and "
             f"{TILED_DISK_BYTES * points / 1e9:.1f} GB of the disk, for {facts.default_vertices:,} vertices; "
             f"in one piece {cost}. --error and colours are for one piece: cut a larger cloud yourself"
         )
     return f"{cost} for {facts.default_vertices:,} vertices, on two idle cores"
+
+
+def _fewer(whole: float, resources: Resources) -> str:
+    """Return for how many vertices there is memory in the end, if not for as many as take `whole` bytes."""
+    from hdpea.report.cost import tiled_vertices_within
+
+    memory = resources.bytes()
+    thousands = tiled_vertices_within(memory) // 1000
+    return f" ({memory / 1e9:.1f} GB with --vertices {thousands}000)" if whole > memory and thousands else ""

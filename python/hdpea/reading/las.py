@@ -20,6 +20,9 @@ from hdpea.reading.names import NORMAL_NAMES, plain_name
 CHUNK = 1_000_000
 """Points decoded at a time: the file and its points are in memory, nothing else of their size."""
 
+FIRST = 100_000
+"""Points that are looked at for colours in a file that is not read whole."""
+
 PROJECTED, GEOGRAPHIC = 3072, 2048
 """Keys of GeoTIFF whose values are the EPSG codes of coordinate reference systems."""
 
@@ -77,14 +80,32 @@ def parse_las(data: bytes) -> PointCloud:
             raise ValueError(f"it ends after {start} of its {header.point_count} points")
         told = [*header.vlrs, *(header.evlrs or [])]
     kept = ~columns.pop("withheld").astype(bool) if "withheld" in columns else np.ones(start, bool)
-    for group in COLORS:
-        if not any(columns[name].any() for name in group if name in columns):
-            columns = {name: values for name, values in columns.items() if name not in group}
+    columns = _filled_in(columns)
     withheld = start - int(kept.sum())
     notes = [f"Left out points that are withheld: {withheld:,}."] if withheld else []
     kind = f"{'LAZ' if header.are_points_compressed else 'LAS'} {header.version}"
     cloud = from_columns({name: values[kept] for name, values in columns.items()}, kind, notes)
     return replace(cloud, crs=crs_of(told), point_index=np.flatnonzero(kept) if withheld else None)
+
+
+def _filled_in(columns: dict[str, NDArray[Any]]) -> dict[str, NDArray[Any]]:
+    """Return the dimensions without colours that are black everywhere."""
+    black = {
+        name for group in COLORS if not any(columns[each].any() for each in group if each in columns) for name in group
+    }
+    return {name: values for name, values in columns.items() if name not in black}
+
+
+def attributes_of_las(reader: Any) -> tuple[str, ...]:
+    """Return the names of the attributes that ``parse_las`` gives the points of a file that laspy has opened.
+
+    Whether there are colours is told by its first points.
+    """
+    first = reader.read_points(FIRST)
+    names = [name for name in first.point_format.dimension_names if name not in {*_GRID, "withheld"}]
+    return tuple(
+        from_columns(_filled_in({name: np.asarray(first[name]) for name in ("x", "y", "z", *names)}), "LAS").attributes
+    )
 
 
 def parse_las_chunk(chunk: Any) -> PointCloud:

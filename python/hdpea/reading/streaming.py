@@ -13,7 +13,7 @@ import numpy as np
 from plyfile import PlyData, PlyListProperty
 
 from hdpea.reading.cloud import PointCloud, from_columns
-from hdpea.reading.las import crs_of, parse_las_chunk
+from hdpea.reading.las import attributes_of_las, crs_of, parse_las_chunk
 
 CHUNK = 1_000_000
 """Points in memory at a time."""
@@ -38,6 +38,8 @@ class PointStream:
         What tells it from any other cloud: of a file its name, size and time, of arrays a digest.
     streamed
         Whether only a piece of it is in memory at a time.
+    attributes
+        Names of what its points have, where the pieces leave some of them out; none where they do not.
     """
 
     name: str
@@ -47,6 +49,7 @@ class PointStream:
     crs: str | None = None
     identity: str = ""
     streamed: bool = True
+    attributes: tuple[str, ...] = ()
 
 
 def stream_of(path: Path) -> PointStream | None:
@@ -87,6 +90,7 @@ def _las_stream(path: Path) -> PointStream | None:
         with laspy.open(path) as reader:
             header = reader.header
             told = [*header.vlrs, *(header.evlrs or [])]
+            attributes = attributes_of_las(reader)
     except Exception:  # noqa: BLE001 the usual reader says what is wrong
         return None
 
@@ -96,7 +100,8 @@ def _las_stream(path: Path) -> PointStream | None:
                 yield parse_las_chunk(chunk)
 
     kind = "LAZ" if header.are_points_compressed else "LAS"
-    return PointStream(str(path), f"{kind} {header.version}", header.point_count, chunks, crs_of(told), _identity(path))
+    name, count = f"{kind} {header.version}", header.point_count
+    return PointStream(str(path), name, count, chunks, crs_of(told), _identity(path), attributes=attributes)
 
 
 def _ply_stream(path: Path, head: bytes) -> PointStream | None:

@@ -67,3 +67,8 @@ def points_within(memory: float, points_per_vertex: float) -> int:
     """Return the points of the largest cloud that a run has room for in so many bytes, at so many points per vertex."""
     each = PEAK_BYTES.per_thousand_points + PEAK_BYTES.per_thousand_vertices / points_per_vertex
     return max(int(1000 * (memory - PEAK_BYTES.fixed) / each), 0)
+
+
+def tiled_vertices_within(memory: float) -> int:
+    """Return the vertices of the largest mesh of tiles that so many bytes have room for."""
+    return max(int(1000 * (memory - TILED_WHOLE_BYTES.fixed) / TILED_WHOLE_BYTES.per_thousand_vertices), 0)

@@ -23,6 +23,7 @@ def assert_streamed_as_read(stream: PointStream | None, path: Path) -> None:
     assert len(chunks) > 1
     points = np.vstack([chunk.points for chunk in chunks])
     assert (stream.format, stream.crs) == (whole.format, whole.crs)
+    assert (stream.attributes or tuple(chunks[0].attributes)) == tuple(whole.attributes)
     np.testing.assert_array_equal(points[np.isfinite(points).all(axis=1)], whole.points)
     normals = [chunk.normals for chunk in chunks if chunk.normals is not None]
     assert (whole.normals is None) == (not normals)
@@ -35,10 +36,11 @@ def test_a_binary_ply_is_streamed_as_it_is_read(tmp_path: Path, byte_order: str)
     assert_streamed_as_read(stream_of(path), path)
 
 
+@pytest.mark.parametrize("filled", [False, True])
 @pytest.mark.parametrize("compressed", [False, True])
-def test_las_is_streamed_as_it_is_read(tmp_path: Path, compressed: bool) -> None:
+def test_las_is_streamed_as_it_is_read(tmp_path: Path, compressed: bool, filled: bool) -> None:
     path = tmp_path / "cloud.las"
-    path.write_bytes(scanner_files.las(compressed, withheld=3))
+    path.write_bytes(scanner_files.las(compressed, withheld=3, filled=filled))
     assert_streamed_as_read(stream_of(path), path)
 
 

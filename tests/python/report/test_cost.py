@@ -5,7 +5,13 @@ from __future__ import annotations
 
 import pytest
 
-from hdpea.report.cost import PEAK_BYTES, PROCESSOR_SECONDS, seconds_of_run
+from hdpea.report.cost import (
+    PEAK_BYTES,
+    PROCESSOR_SECONDS,
+    TILED_WHOLE_BYTES,
+    seconds_of_run,
+    tiled_vertices_within,
+)
 
 # Points (with normals), vertices, processor seconds of the whole command, peak memory in MB.
 MEASURED = [
@@ -32,3 +38,10 @@ def test_a_cloud_that_must_be_oriented_takes_longer_the_larger_it_is() -> None:
     extra = [seconds_of_run(n, 1000, oriented=False) - seconds_of_run(n, 1000, oriented=True) for n in (0, 1000, 10**5)]
     assert extra[0] == 0
     assert 0 < 100 * extra[1] < extra[2]
+
+
+@pytest.mark.parametrize(("memory", "none"), [(0.2e9, True), (4e9, False)])
+def test_the_largest_mesh_of_tiles_takes_the_memory_that_there_is(memory: float, none: bool) -> None:
+    most = tiled_vertices_within(memory)
+    assert (most == 0) == none
+    assert most == 0 or TILED_WHOLE_BYTES.of(0, most) == pytest.approx(memory, rel=1e-4)
