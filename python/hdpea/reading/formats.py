@@ -78,7 +78,7 @@ FORMATS = (
     ),
 )
 
-FROM_STL = "assimp export scan.stl scan.ply"
+STL = "an STL file, a mesh", "assimp export scan.stl scan.ply"
 
 FOREIGN = (
     (re.compile(rb"PK\x03\x04.{26}(?:\[Content_Types\]|xl/)", re.DOTALL), "a spreadsheet",
@@ -89,7 +89,7 @@ FOREIGN = (
      "gdal_translate -of XYZ dem.grd dem.xyz"),
     (re.compile(rb"II\*\0|MM\0\*"), "a TIFF, an image or heights in rows", "gdal_translate -of XYZ dem.tif dem.xyz"),
     (re.compile(rb"glTF"), "a glTF file", "assimp export scan.glb scan.ply"),
-    (re.compile(rb"solid\b"), "an STL file, a mesh", FROM_STL),
+    (re.compile(rb"solid\b"), *STL),
     (re.compile(rb"# vtk DataFile|<\?xml[^>]*>\s*<VTKFile|<VTKFile"), "a VTK file", "meshio convert scan.vtk scan.ply"),
     (re.compile(rb"#VRML|<\?xml[^>]*>\s*(?:<!DOCTYPE[^>]*>\s*)?<X3D"), "a VRML or X3D file",
      "meshlabserver -i scan.wrl -o scan.ply"),
@@ -136,17 +136,23 @@ def parse_points(data: bytes, extension: str = "") -> PointCloud:
         data = unzipped(data)
     if not data or data.isspace():
         raise UnreadableInput("it is empty.", "Save or export it again; it has no points yet.")
-    if is_binary_stl(data):
-        raise UnreadableInput("it is an STL file, a mesh.", f"Give the cloud, or convert it: {FROM_STL}")
-    for prefix, what, command in FOREIGN:
-        if prefix.match(data):
-            raise UnreadableInput(f"it is {what}.", f"Convert it: {command}")
+    foreign = _foreign(data)
+    if foreign is not None:
+        what, command = foreign
+        raise UnreadableInput(f"it is {what}.", f"Convert it: {command}")
     known = next((each for each in FORMATS if each.content.match(data)), None)
     if known is not None:
         return _parsed(known, data)
     if b"\0" in data[:4096] and not data.startswith(UTF16):
         raise UnreadableInput("its format is unknown.", READABLE)
     return parse_text(data, normals_expected=extension in {".pwn", ".xyzn"})
+
+
+def _foreign(data: bytes) -> tuple[str, str] | None:
+    """Return what data are that no format of ``FORMATS`` reads, and the command that converts them, if it is known."""
+    if is_binary_stl(data):
+        return STL
+    return next(((what, command) for prefix, what, command in FOREIGN if prefix.match(data)), None)
 
 
 def _parsed(known: Format, data: bytes) -> PointCloud:
