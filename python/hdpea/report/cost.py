@@ -46,12 +46,12 @@ WITHOUT_NORMALS = 1.3
 """How many times as much memory a cloud may take whose normals are estimated: a lidar tile of 237,521 points does."""
 
 TILED_SECONDS = 0.1e-3
-"""Seconds for each point of a cloud in tiles, on two cores: 0.19 ms of a processor, of 2,000,000 points
-(``docs/scaling.md``)."""
+"""Seconds for each point of a cloud in tiles, on two cores: 0.19 ms of a processor of 2,000,000 points, 0.146 ms of
+10,000,000 (``docs/scaling.md``)."""
 
 TILED_WHOLE_BYTES = Cost(fixed=0.3e9, per_thousand_points=0, per_thousand_vertices=2.75e6)
-"""Memory for the mesh of all tiles, which one process extracts, repairs and measures: 988 MB for 250,000 vertices
-(``docs/scaling.md``), by a line through nothing else."""
+"""Memory for the mesh of all tiles, which one process extracts, repairs and measures: 988 MB for 250,000 vertices and
+1,654 MB for 500,000 (``docs/scaling.md``)."""
 
 TILED_DISK_BYTES = 605
 """Bytes of the disk for each point of a cloud in tiles, while they are worked on (``docs/scaling.md``)."""
