@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -13,7 +15,7 @@ from hdpea.options import DenoisingOptions
 from hdpea.options.choice import Choice
 from hdpea.options.denoising import FEWEST_FITTED, MOST_FITTED, ROUGH
 from hdpea.runtime.progress import ProgressCallback, tell
-from hdpea.surface.layers import have_layers, layered_region
+from hdpea.surface.layers import have_layers, layered_region, mean_normals
 from hdpea.surface.normals import OrientedSurface
 from hdpea.surface.surface import Surface
 
@@ -55,7 +57,9 @@ def denoised(
         # Noise as wide as the points are apart lifts points above others, too.
         # And computed sides may be wrong where walls are thin.
         told_apart = options.denoise == "auto" and roughness.noise <= ROUGH and not oriented.computed_sides
-        layered = told_apart and have_layers(surface.points_in_unit, surface.normals)
+        layered = told_apart and (oriented.doubled or have_layers(surface.points_in_unit, surface.normals))
+        if layered and oriented.doubled:
+            surface = replace(surface, normals=mean_normals(surface.points_in_unit, surface.normals))
     if layered:
         method, choices = "mls", (Choice("denoise", "mls", "", LAYERED),)
     if method == "none":
@@ -68,7 +72,8 @@ def denoised(
     with core_errors_translated():
         points, normals = _fitted(surface, count, progress)
         if layered and roughness.deviation <= ROUGH:
-            points, normals = _in_layers(surface, points, normals)
+            rows = layered_region(surface.points_in_unit, surface.normals, doubled=oriented.doubled)
+            points, normals = _in_layers(oriented.surface, rows, points, normals)
     tell(progress, "denoising", 1)
     return Surface.of(surface.frame, points, normals), choices
 
@@ -85,9 +90,10 @@ def _fitted(surface: Surface, count: int, progress: ProgressCallback | None) -> 
     return points, normals
 
 
-def _in_layers(surface: Surface, points: Vectors, normals: Vectors) -> tuple[Vectors, Vectors]:
-    """Keep the fitted points and normals (n, 3) where layers lie, and those given elsewhere."""
-    rows = layered_region(surface.points_in_unit, surface.normals)
+def _in_layers(
+    surface: Surface, rows: NDArray[np.int64], points: Vectors, normals: Vectors
+) -> tuple[Vectors, Vectors]:
+    """Keep the fitted points and normals (n, 3) in the rows (m,) where layers lie, and those given elsewhere."""
     kept_points, kept_normals = surface.points_in_unit.copy(), surface.normals.copy()
     kept_points[rows], kept_normals[rows] = points[rows], normals[rows]
     return kept_points, kept_normals

@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 from hdpea import _core
 from hdpea.geometry.thinning import rows_along
+from hdpea.runtime.blocks import in_blocks
 
 SAMPLES = 2_000
 """Points at which it is looked whether there are any."""
@@ -23,6 +24,9 @@ STEEP, LEAST_HEIGHT = 0.7, 0.5
 
 MOST_HEIGHT = 2.5
 """Height in spacings up to which two layers are one surface seen twice: sheets that lie farther apart are two."""
+
+AROUND_DOUBLED, MOST_HEIGHT_DOUBLED = 64, 4.0
+"""The same where strips are known to overlap: of 24 nearest points, none lies on a layer three spacings off."""
 
 CHUNK = 50_000
 """Points that are looked at at once, which bounds the memory."""
@@ -80,14 +84,20 @@ def layered_samples(points: NDArray[np.float64], normals: NDArray[np.float64]) -
         return np.empty(0, dtype=np.int64)
     rows = rows_along(len(points), SAMPLES)
     around = _core.nearest_neighbors(points, np.ascontiguousarray(points[rows]), AROUND + 1)[:, 1:]
-    return rows[are_layered(points, normals, rows, around, _most_height(points, rows, around))]
+    return rows[are_layered(points, normals, rows, around, _most_height(points, rows, around, MOST_HEIGHT))]
 
 
-def layered_region(points: NDArray[np.float64], normals: NDArray[np.float64]) -> NDArray[np.int64]:
-    """Return the rows (m,) of the points (n, 3) in layers and of those around them."""
-    around = _core.nearest_neighbors(points, AROUND)
+def layered_region(
+    points: NDArray[np.float64], normals: NDArray[np.float64], *, doubled: bool = False
+) -> NDArray[np.int64]:
+    """Return the rows (m,) of the points (n, 3) in layers and of those around them.
+
+    Where strips are known to overlap, these may lie farther apart.
+    """
+    around = _core.nearest_neighbors(points, min(AROUND_DOUBLED if doubled else AROUND, len(points) - 1))
     sampled = rows_along(len(points), SAMPLES)
-    most_height = _most_height(points, sampled, around[sampled])
+    highest = MOST_HEIGHT_DOUBLED if doubled else MOST_HEIGHT
+    most_height = _most_height(points, sampled, around[sampled], highest)
     inside = np.zeros(len(points), dtype=bool)
     for rows in np.array_split(np.arange(len(points)), len(points) // CHUNK + 1):
         inside[rows] = are_layered(points, normals, rows, around[rows], most_height)
@@ -96,7 +106,20 @@ def layered_region(points: NDArray[np.float64], normals: NDArray[np.float64]) ->
     return np.flatnonzero(inside)
 
 
-def _most_height(points: NDArray[np.float64], rows: NDArray[np.int64], around: NDArray[np.int64]) -> float:
-    """Return the height in the unit of the points; at rims alone the nearest points reach too far to tell it."""
+def mean_normals(points: NDArray[np.float64], normals: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return the mean (n, 3) of the unit normals around each of points (n, 3), of length 1.
+
+    Where normals were fitted to two layers at once they lie any way, but on average across both.
+    """
+    around = _core.nearest_neighbors(points, min(AROUND_DOUBLED, len(points) - 1))
+    sums = in_blocks(lambda rows: normals[around[rows]].sum(axis=1), len(points)) + normals
+    lengths = np.linalg.norm(sums, axis=1, keepdims=True)
+    return np.asarray(np.where(lengths > 0, sums / np.where(lengths > 0, lengths, 1), normals))
+
+
+def _most_height(
+    points: NDArray[np.float64], rows: NDArray[np.int64], around: NDArray[np.int64], spacings: float
+) -> float:
+    """Return so many spacings in the unit of the points; at rims alone the nearest points reach too far to tell it."""
     reaches = np.linalg.norm(points[around[:, -1]] - points[rows], axis=1)
-    return MOST_HEIGHT * float(np.median(reaches)) * float(np.sqrt(np.pi / around.shape[1]))
+    return spacings * float(np.median(reaches)) * float(np.sqrt(np.pi / around.shape[1]))

@@ -49,6 +49,8 @@ class OrientedSurface:
         What was chosen automatically.
     from_one_place
         Whether a single sensor saw all points, as far as is known.
+    doubled
+        Whether strips overlap that do not meet, as far as the view tells.
     """
 
     surface: Surface
@@ -59,6 +61,7 @@ class OrientedSurface:
     refused: bool = False
     choices: tuple[Choice, ...] = ()
     from_one_place: bool = False
+    doubled: bool = False
 
     @property
     def computed_sides(self) -> bool:
@@ -143,6 +146,7 @@ def oriented_surface(
         refused=refused,
         choices=choices,
         from_one_place=orientation.from_one_place,
+        doubled=orientation.doubled,
     )
 
 

@@ -93,12 +93,15 @@ class Orientation:
         Why this method was chosen.
     from_one_place
         Whether a single sensor saw all points, as far as is known.
+    doubled
+        Whether strips overlap that do not meet, as far as the view tells.
     """
 
     normals: Vectors
     method: str
     why: str = ""
     from_one_place: bool = False
+    doubled: bool = False
 
 
 def require_signs(given: Vectors, sensors: Vectors | None, options: NormalOptions) -> None:
@@ -161,7 +164,7 @@ def _by_best_method(
     view = _view(points, directions, evidence)
     if view is not None:
         normals = by_view(points, directions, evidence, view)
-        return Orientation(normals, "viewpoint", view.why, view.from_one_place)
+        return Orientation(normals, "viewpoint", view.why, view.from_one_place, view.doubled)
     if len(points) > DECIDING:
         return _as_deciding_points(points, directions, evidence, progress)
     return _by_agreement(points, directions, evidence, progress)

@@ -6,7 +6,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from helpers.clouds import Array, sphere_points
-from helpers.raw_clouds import two_scans_of_a_ball, two_scans_of_a_wall
+from helpers.raw_clouds import overlapping_strips, two_scans_of_a_ball, two_scans_of_a_wall
 from helpers.raw_meshes import area, assert_ball, middles, share_against
 
 from hdpea import reconstruct
@@ -39,6 +39,15 @@ def test_a_wall_whose_layers_face_the_same_way_is_one_sheet() -> None:
     assert share_against(made, np.array([0, 0, 1.0])) < 1e-9
     # Half way between the layers.
     assert middles(made)[:, 2].mean() == pytest.approx(0.75 / 50, rel=0.15)
+
+
+@pytest.mark.parametrize("spacings", [1.0, 3.0])
+def test_strips_that_overlap_are_one_sheet_that_faces_up(spacings: float) -> None:
+    made = reconstruct(overlapping_strips(3000, spacings))
+    mesh = made.report.mesh
+    assert (mesh.components, mesh.boundary_loops, mesh.self_intersections) == (1, 1, 0)
+    assert share_against(made, np.array([0, 0, 1.0])) < 0.001
+    assert not made.report.missed
 
 
 def shell(apart: float, inside: float) -> tuple[Array, Array]:

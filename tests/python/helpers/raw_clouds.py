@@ -58,6 +58,19 @@ def two_scans_of_a_wall(count: int, spacings: float) -> tuple[Array, Array]:
     return np.vstack(layers), np.tile([0.0, 0.0, 1.0], (2 * count, 1))
 
 
+def overlapping_strips(count: int, spacings: float) -> Array:
+    """Return two strips of a unit square of hills, of so many points each, which overlap in a band, where the second is
+    so many spacings too high."""
+    random = np.random.default_rng(0)
+    spacing = (2 * count / 1.15) ** -0.5
+    strips = []
+    for low, offset in ((0, 0), (0.425, spacings)):
+        x, y = low + 0.575 * random.random(count), random.random(count)
+        z = 0.04 * np.sin(12 * x) * np.cos(5 * y) + offset * spacing + 0.1 * spacing * random.normal(size=count)
+        strips.append(np.column_stack([x, y, z]))
+    return np.vstack(strips)
+
+
 def rings(rows: int, ratio: float) -> Array:
     """Return circles of latitude of the unit sphere, turned at random, `ratio` times denser along than across."""
     circles = []
