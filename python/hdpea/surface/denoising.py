@@ -90,9 +90,7 @@ def _fitted(surface: Surface, count: int, progress: ProgressCallback | None) -> 
     return points, normals
 
 
-def _in_layers(
-    surface: Surface, rows: NDArray[np.int64], points: Vectors, normals: Vectors
-) -> tuple[Vectors, Vectors]:
+def _in_layers(surface: Surface, rows: NDArray[np.int64], points: Vectors, normals: Vectors) -> tuple[Vectors, Vectors]:
     """Keep the fitted points and normals (n, 3) in the rows (m,) where layers lie, and those given elsewhere."""
     kept_points, kept_normals = surface.points_in_unit.copy(), surface.normals.copy()
     kept_points[rows], kept_normals[rows] = points[rows], normals[rows]

@@ -40,9 +40,9 @@ DOUBLED, MOST_DOUBLED = 4.0, 0.25
 """Farthest that the layers of a height field's overlapping strips lie apart, in spacings, and the largest share of the
 points that lies in layers at all.
 
-Strips of terrain, of a flat sheet and of half a cylinder that overlap in a band, 0.3 to 3 spacings out of register, have
-9 to 18 % in layers, all of them so near. A third of the training meshes, from three directions: 44 % and more of their
-points are above others, of thin plates most of them so near."""
+Strips of terrain, of a flat sheet and of half a cylinder that overlap in a band, 0.3 to 3 spacings out of register,
+have 9 to 18 % in layers, all of them so near. A third of the training meshes, from three directions: 44 % and more of
+their points are above others, of thin plates most of them so near."""
 
 MOST_NOISE = 0.5
 """Most noise of a height field, in spacings.
@@ -145,8 +145,8 @@ def _layered(
 ) -> tuple[float, float]:
     """Return the shares of points that lie in layers, near each other and far, of those that are seen well.
 
-    Those are neighbours in the picture that are apart by more than the `noise`. Their `places` (n, 3) in the picture are
-    those of their lines of sight. Where hardly any are seen well, all count as hidden.
+    Those are neighbours in the picture that are apart by more than the `noise`. Their `places` (n, 3) in the picture
+    are those of their lines of sight. Where hardly any are seen well, all count as hidden.
     """
     facing = abs(np.einsum("nc,nc->n", directions, towards)) > GRAZING
     if facing.mean() < LEAST_FACED:
