@@ -33,6 +33,11 @@ tried first."""
 TIGHTENED = (0.98, 0.95, 0.85, 0.7)
 """Shares of the error that are tried one after the other, since places between those tried may be a little farther."""
 
+HOPELESS = 2.0
+"""By how many times the error a mesh breaks it that no tightening brings within: 0.7 of it is tried at the least.
+
+Of eight thin training meshes at 0.5 and 0.1 % none that broke it by more came within it, nor nearer by a tenth."""
+
 ROUNDING = 1 + 1e-6
 
 
@@ -167,4 +172,6 @@ def simplify_within(mesh: Mesh, bound: ErrorBound, progress: PhaseCallback | Non
             attempts.append((bound.reached(made).larger, made))
             if attempts[-1][0] <= bound.error * ROUNDING:
                 return made
+            if attempts[-1][0] > bound.error * HOPELESS:
+                break
     return min(attempts, key=lambda attempt: attempt[0])[1]
