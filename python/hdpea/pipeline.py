@@ -8,17 +8,16 @@ from typing import Any
 
 from numpy.typing import NDArray
 
-from hdpea.embedding import Embedder, embed_surface
+from hdpea.embedding import Embedder
 from hdpea.embedding.device import device_choices
-from hdpea.embedding.tangents import tangent_bases
 from hdpea.frontend.cleaning import SurfaceCloud, surface_cloud
 from hdpea.geometry.texture import Texture
-from hdpea.mesh.assembly import assemble_mesh
 from hdpea.mesh.attributes import vertex_attributes
 from hdpea.mesh.budget import particles_wanted
 from hdpea.mesh.extraction import Mesh
 from hdpea.mesh.levels import coarser_levels
 from hdpea.mesh.noise import within_noise
+from hdpea.mesh.parts import mesh_surface
 from hdpea.mesh.sides import FacedMesh, facing_out
 from hdpea.mesh.texture import texture_of
 from hdpea.options import Options
@@ -109,14 +108,10 @@ def _make(
     # Under an error bound the collapses find out themselves what the points show.
     exact = prepared.exact and not noise_choices and options.meshing.error is None
     _, count_choices = particles_wanted(budgeted, len(cloud.points), shown, exact=exact)
-    surface, resolution = prepared.surface, budgeted.resolution_of(shown)
-    with clock.stage("embedding"):
-        embedded = embed_surface(surface, resolution, options.embedding, progress, embedder)
-        per_vertex = len(cloud.points) / resolution
-        bases = tangent_bases(embedded.coordinates, surface.normals, surface.neighbors, per_vertex)
-    mesh = assemble_mesh(surface, embedded.coordinates, bases, budgeted, progress, clock, shown, exact=exact)
+    surface, parts = prepared.surface, prepared.oriented.parts
+    mesh, mesh_choices = mesh_surface(surface, budgeted, shown, parts, progress, clock, embedder, exact=exact)
     wanted = budgeted.vertices_of(shown) if options.meshing.error is None else len(mesh.vertices_in_unit)
-    choices = (*noise_choices, *count_choices, *embedded.choices, *mesh.choices)
+    choices = (*noise_choices, *count_choices, *mesh_choices, *mesh.choices)
     return _Made(found, cloud, prepared, mesh, wanted, choices)
 
 

@@ -15,6 +15,7 @@ from hdpea.geometry.unit_frame import UnitFrame
 from hdpea.options import NormalOptions
 from hdpea.options.choice import Choice
 from hdpea.runtime.progress import ProgressCallback, of_phase, tell
+from hdpea.surface.dense_parts import dense_parts
 from hdpea.surface.given_signs import GivenSigns, given_signs
 from hdpea.surface.orientation import SignEvidence, Vectors, orient, require_signs
 from hdpea.surface.plausibility import are_normals
@@ -51,6 +52,8 @@ class OrientedSurface:
         Whether a single sensor saw all points, as far as is known.
     doubled
         Whether strips overlap that do not meet, as far as the view tells.
+    parts
+        Rows of each part that was sampled far more densely than the scene it lies in.
     """
 
     surface: Surface
@@ -62,6 +65,7 @@ class OrientedSurface:
     choices: tuple[Choice, ...] = ()
     from_one_place: bool = False
     doubled: bool = False
+    parts: tuple[NDArray[np.int64], ...] = ()
 
     @property
     def computed_sides(self) -> bool:
@@ -132,7 +136,9 @@ def oriented_surface(
         origin, sensors = frame.to_unit(np.zeros(3)), _sensors(frame, sensors_in_world)
         evidence = SignEvidence(trusted, ~usable, nearest, roughness, origin, sensors, signs)
         seen_from = _seen_from(frame, sensors_in_world, options) if options.orient == "viewpoint" else None
-        orientation = orient(points, directions, evidence, options.orient, seen_from, of_phase(progress, "normals"))
+        parts = dense_parts(points, directions, neighbors)
+        hears = of_phase(progress, "normals")
+        orientation = orient(points, directions, evidence, options.orient, seen_from, hears, parts)
         if options.orient == "auto":
             choices += (Choice("orient", orientation.method, "", orientation.why),)
     tell(progress, "normals", 1)
@@ -147,6 +153,7 @@ def oriented_surface(
         choices=choices,
         from_one_place=orientation.from_one_place,
         doubled=orientation.doubled,
+        parts=parts,
     )
 
 

@@ -133,6 +133,7 @@ def orient(
     method: str,
     seen_from: Vectors | None = None,
     progress: PhaseCallback | None = None,
+    parts: tuple[NDArray[np.int64], ...] = (),
 ) -> Orientation:
     """Give normals their signs by the given method of ``NormalOptions.orient``.
 
@@ -142,9 +143,11 @@ def orient(
         (n, 3) float64; the directions are of length 1, and their signs mean nothing yet.
     seen_from
         (n, 3) or (3,), the sensor of each point or of all; needed for the method ``viewpoint``.
+    parts
+        Rows of what lies in the scene and is no part of its surface: the method ``auto`` may choose another for each.
     """
     if method == "auto":
-        return _by_best_method(points, directions, evidence, progress)
+        return _by_best_method(points, directions, evidence, progress, parts)
     if method == "wnnc":
         return Orientation(by_winding_number(points, directions, evidence, progress), method)
     if method == "viewpoint" and seen_from is not None:
@@ -155,19 +158,54 @@ def orient(
 
 
 def _by_best_method(
-    points: Vectors, directions: Vectors, evidence: SignEvidence, progress: PhaseCallback | None
+    points: Vectors,
+    directions: Vectors,
+    evidence: SignEvidence,
+    progress: PhaseCallback | None,
+    parts: tuple[NDArray[np.int64], ...] = (),
 ) -> Orientation:
     signs = evidence.signs
     if signs is not None and signs.trusted:
         why = f"{signs.consistency:.0%} of neighbours agree on the side"
         return Orientation(by_file(points, directions, evidence), "file", why)
     view = _view(points, directions, evidence)
+    # A ball on the ground may be so small a share of the points that all seem to be a height field.
+    if parts and not (view is not None and (view.from_one_place or evidence.sensors is not None)):
+        return _each_by_itself(points, directions, evidence, progress, parts)
     if view is not None:
         normals = by_view(points, directions, evidence, view)
         return Orientation(normals, "viewpoint", view.why, view.from_one_place, view.doubled)
     if len(points) > DECIDING:
         return _as_deciding_points(points, directions, evidence, progress)
     return _by_agreement(points, directions, evidence, progress)
+
+
+def _each_by_itself(
+    points: Vectors,
+    directions: Vectors,
+    evidence: SignEvidence,
+    progress: PhaseCallback | None,
+    parts: tuple[NDArray[np.int64], ...],
+) -> Orientation:
+    """Orient each of the parts, and what is left, as if it were all there is; told is how what is left was."""
+    rest = np.setdiff1d(np.arange(len(points)), np.concatenate(parts))
+    normals, found = directions.copy(), list[Orientation]()
+    for rows in (*parts, rest):
+        own = np.ascontiguousarray(points[rows])
+        found.append(_by_best_method(own, directions[rows], _evidence_of(evidence, rows, own), progress))
+        normals[rows] = found[-1].normals
+    return replace(found[-1], normals=normals)
+
+
+def _evidence_of(evidence: SignEvidence, rows: NDArray[np.int64], points: Vectors) -> SignEvidence:
+    """Return what is known of the signs of the rows (m,) alone, whose points are (m, 3)."""
+    return replace(
+        evidence,
+        given=evidence.given[rows],
+        estimated=evidence.estimated[rows],
+        neighbors=_core.nearest_neighbors(points, evidence.neighbors.shape[1]),
+        sensors=None if evidence.sensors is None else evidence.sensors[rows],
+    )
 
 
 def _view(points: Vectors, directions: Vectors, evidence: SignEvidence) -> View | None:
@@ -205,13 +243,7 @@ def _as_deciding_points(
     thinner = Roughness(
         evidence.roughness.deviation * float(np.sqrt(DECIDING / len(points))), evidence.roughness.like_noise
     )
-    known = replace(
-        evidence,
-        given=evidence.given[deciding],
-        estimated=evidence.estimated[deciding],
-        neighbors=_core.nearest_neighbors(few, evidence.neighbors.shape[1]),
-        roughness=thinner,
-    )
+    known = replace(_evidence_of(evidence, deciding, few), roughness=thinner)
     decided = _by_agreement(few, np.ascontiguousarray(directions[deciding]), known, progress)
     return replace(decided, normals=_followed(points, directions, few, decided.normals))
 

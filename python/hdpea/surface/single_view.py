@@ -41,8 +41,8 @@ DOUBLED, MOST_DOUBLED = 4.0, 0.25
 points that lies in layers at all.
 
 Strips of terrain, of a flat sheet and of half a cylinder that overlap in a band, 0.3 to 3 spacings out of register,
-have 9 to 18 % in layers, all of them so near. A third of the training meshes, from three directions: 44 % and more of
-their points are above others, of thin plates most of them so near."""
+have 9 to 18 % in layers, all of them so near. Of a third of the training meshes, from three directions, 44 % and more
+are above others, of thin plates most of them so near."""
 
 MOST_NOISE = 0.5
 """Most noise of a height field, in spacings.

@@ -1,0 +1,31 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Small things that were scanned densely, in large scenes that were not: both are there, with the detail they show."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from helpers.clouds import sphere_points
+from helpers.raw_meshes import share_against
+
+from hdpea import reconstruct
+
+RADIUS = 0.1
+
+
+@pytest.mark.parametrize("vertices", [None, 400])
+def test_a_ball_above_a_floor_is_whole_and_faces_out(vertices: int | None) -> None:
+    floor = np.column_stack([np.random.default_rng(0).uniform(-10, 10, (1500, 2)), np.zeros(1500)])
+    middle = np.array([1.0, 2.0, 0.5])
+    made = reconstruct(np.vstack([floor, middle + RADIUS * sphere_points(2500, 1)]), vertices=vertices)
+    mesh = made.report.mesh
+    assert (mesh.components, mesh.boundary_loops, mesh.self_intersections) == (2, 1, 0)
+    assert mesh.vertices == pytest.approx(vertices or 500, abs=3)
+    assert made.report.agreement.points_without_mesh == 0
+    offsets = made.vertices[made.faces].mean(axis=1) - middle
+    of_ball = np.linalg.norm(offsets, axis=1) < 2 * RADIUS
+    assert of_ball.mean() > 0.5
+    np.testing.assert_allclose(np.linalg.norm(offsets[of_ball], axis=1), RADIUS, rtol=0.05)
+    out = np.where(of_ball[:, None], offsets, [0.0, 0.0, 1.0])
+    assert share_against(made, out) == 0
+    assert not made.report.missed
