@@ -46,8 +46,9 @@ def command(
 
     OUT is NPZ (arrays points and normals of shape (n, 3), coordinates of shape (n, 8)) or PLY
     (embedding_0 to embedding_7 as properties of the points). IN is as for reconstruct. It shows
-    as much detail as the particles that a mesh of that many --vertices is made of. Points that lie
-    on no surface or crowd on scan lines are left out; point_index says which of IN are there.
+    as much detail as a mesh with a vertex for every 8 points, or with --vertices where these are more.
+    Points that lie on no surface or crowd on scan lines are left out; point_index says which of IN
+    are there.
     """
     options = chosen_options(ctx, values)
     from hdpea.reading import read_points

@@ -36,33 +36,48 @@ def estimate_from_jets(surface: Surface, metric: Metric, neighbors: int | None) 
 
     The stretches are those of the `metric` for these curvatures.
     """
-    jets = _fit(surface, neighbors)
+    jets, around = _fit(surface, neighbors)
     curvatures, direction1 = jets.curvature.principal, jets.curvature.direction1
     bend = _bend(jets)
     least_bend = np.maximum(ROUND * abs(curvatures[:, 0]), FLAT)
     # Comparisons with NaN are false: what is unknown is not determined.
     determined: NDArray[np.bool_] = (bend >= least_bend) & (jets.curvature_error <= SURE * bend)
-    choices: tuple[Choice, ...] = ()
+    radius = _radius(surface.points_in_unit, around, jets.fitted) * surface.frame.diagonal
+    choices: tuple[Choice, ...] = (
+        Choice("jet_radius", radius, "world units", "to the farthest point that a jet is fitted to: the median"),
+    )
     if neighbors is None:
         many = float((jets.fitted > JET_NEIGHBORS).mean())
         why = f"{JET_NEIGHBORS} where that is sure enough; {many:.0%} of the points have more"
-        choices = (Choice("neighbors", float(jets.fitted.mean()), "points on average", why),)
+        choices += (Choice("neighbors", float(jets.fitted.mean()), "points on average", why),)
     return Estimate(jets.normals, direction1, metric.stretches(curvatures), curvatures, determined, choices)
 
 
-def _fit(surface: Surface, neighbors: int | None) -> _core.Jets:
+def _fit(surface: Surface, neighbors: int | None) -> tuple[_core.Jets, NDArray[np.int64]]:
+    """Return the jets, and the neighbours (n, k) of which they are fitted to the first."""
     options = _core.JetOptions()
     points, normals = surface.points_in_unit, surface.normals
     if neighbors is not None:
         options.least_neighbors = neighbors
-        return _core.fit_jets(points, normals, _nearest(surface, neighbors), options)
+        nearest = _nearest(surface, neighbors)
+        return _core.fit_jets(points, normals, nearest, options), nearest
     options.least_neighbors = JET_NEIGHBORS
     options.direction_error, options.curvature_error = SURE, SURELY_FLAT
     jets = _core.fit_jets(points, normals, surface.neighbors, options)
     unsure = jets.curvature_error > np.maximum(SURELY_FLAT, SURE * _bend(jets))
     if unsure.mean() <= FEW_UNSURE:
-        return jets
-    return _core.fit_jets(points, normals, _nearest(surface, MOST_JET_NEIGHBORS), options)
+        return jets, surface.neighbors
+    nearest = _nearest(surface, MOST_JET_NEIGHBORS)
+    return _core.fit_jets(points, normals, nearest, options), nearest
+
+
+def _radius(points: NDArray[np.float64], neighbors: NDArray[np.int64], fitted: NDArray[np.int64]) -> float:
+    """Return the median distance to the last of the neighbours that each jet is fitted to; NaN if no jet has any."""
+    rows = np.flatnonzero(fitted > 0)
+    farthest = neighbors[rows, np.minimum(fitted[rows], neighbors.shape[1]) - 1]
+    known = farthest >= 0
+    distances = np.linalg.norm(points[farthest[known]] - points[rows[known]], axis=1)
+    return float(np.median(distances)) if len(distances) else np.nan
 
 
 def _bend(jets: _core.Jets) -> NDArray[np.float64]:

@@ -58,7 +58,7 @@ def embed_learned(surface: Surface, vertices: int, options: EmbeddingOptions, pr
     in_world, of_weights = spacing * surface.frame.diagonal, "what the weights were trained for"
     limit = f", one for every {least:g} points: there is no finer one" if round(shown) < vertices else ""
     choices = (
-        Choice("metric_spacing", in_world, "world units", f"that of {round(shown):,} particles{limit}"),
+        Choice("metric_spacing", in_world, "world units", f"that of {round(shown):,} vertices{limit}"),
         Choice("metric_scale", network.metric.scale * in_world, "world units", of_weights),
         Choice("max_stretch", network.metric.max_stretch, "", of_weights),
     )

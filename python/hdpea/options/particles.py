@@ -31,7 +31,7 @@ class ParticleOptions(Checked):
         "particles to spread; their mesh is simplified where fewer vertices are wanted; default: one for every "
         f"{POINTS_PER_PARTICLE} points, at most {ENOUGH_PARTICLES:,} or {ENOUGH_PER_VERTEX} for each vertex; one for "
         f"every {POINTS_PER_VERTEX} where points were denoised, or most normals estimated, and no more vertices are "
-        "wanted",
+        "wanted; as many as vertices where that is hardly more",
         minimum=4,
     )
     iterations: int | None = option(

@@ -126,6 +126,14 @@ def test_the_embedding_meets_noise_with_more_neighbors_of_the_normals() -> None:
     assert steady < 5 < plain
 
 
+def test_jets_tell_the_radius_that_they_are_fitted_in() -> None:
+    points, normals = clouds.sphere(4_000)
+    radius = next(
+        each.value for each in estimate_curvature(10 * points, normals, JET).choices if each.name == "jet_radius"
+    )
+    assert radius == pytest.approx(10 * np.sqrt(4 * 24 / 4_000), rel=0.1)  # a cap of as large an area as 24 points have
+
+
 def test_jets_meet_noise_with_more_neighbors() -> None:
     points, normals = clouds.torus(8_000)
     noisy = points + np.random.default_rng(1).normal(0, 0.01, points.shape)
