@@ -13,6 +13,7 @@ from hdpea.mesh.creases import find_creases, with_crease_edges_counted
 from hdpea.mesh.error_bound import ErrorBound, mended_within, simplify_within
 from hdpea.mesh.extraction import Mesh, extract_mesh
 from hdpea.mesh.fitting import FitTarget
+from hdpea.mesh.lids import without_lids
 from hdpea.mesh.particles import spread_particles
 from hdpea.mesh.repair import repair_mesh
 from hdpea.options import MeshingOptions, Options, ParticleOptions
@@ -167,9 +168,10 @@ def _mesh_of_particles(
             )
         with clock.stage("meshing"):
             tell(progress, "meshing", 0)
-            attempts.append(
-                extract_mesh(particles, bases, surface, options.meshing, share_kept, counts.resolution, exact=exact)
-            )
+            mesh = extract_mesh(particles, bases, surface, options.meshing, share_kept, counts.resolution, exact=exact)
+            # A size that was asked for is kept to.
+            chosen = options.meshing.fill_holes is None and not options.meshing.watertight
+            attempts.append(without_lids(mesh, surface) if chosen else mesh)
             tell(progress, "meshing", 1)
         excess = Budget.of(options.meshing).excess(attempts[-1])
         if excess >= 0:

@@ -1,0 +1,115 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Lids: patches that close what is open, as the mouths of a pipe, far from all points and across the surface."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from hdpea import _core
+from hdpea.geometry.triangles import area_vectors, mesh_area
+from hdpea.mesh.coverage import MIDDLES
+from hdpea.mesh.extraction import Mesh
+from hdpea.surface.surface import AREA_NEIGHBORS, Surface, areas_shown
+
+EMPTY = 3.0
+"""Distance of a patch from the nearest point, in spacings there, from which on nothing can be there but a hole.
+
+Of 21 training meshes, 4,000 points each, 15 have patches where thin parts are torn: most lie within 2.1 spacings of
+points, and all that lie 3 off are 1 to 2.2 spacings from the true surface; of 40,000 points of four meshes none lies
+2.2 off. The mouths of pipes with 20 points around lie 2.6 to 3.1 off, with 12 around less than 2.2. Of raw scans of
+boot, engine, lattice_lamp and anchor, opened patches leave less debris, and rms and wrong side a little smaller."""
+
+ACROSS = 0.7
+"""Mean cosine of the angle to the faces around it under which a patch does not continue the surface: it turns by 45
+degrees. The hole that an obstacle left in a scan is closed, as the surface goes on behind it."""
+
+
+def without_lids(mesh: Mesh, surface: Surface) -> Mesh:
+    """Open the holes of a mesh again whose patches lie far from all points, across the surface around them.
+
+    Its last faces are the patches, ``mesh.patches`` their corners.
+    """
+    first = len(mesh.faces) - len(mesh.patches)
+    empty = _emptiness(mesh, surface)
+    if not (empty > EMPTY).any():
+        return mesh
+    opposite = _opposite_faces(mesh.faces)
+    labels = _labels_of_patches(opposite, first)
+    vectors = area_vectors(mesh.vertices_in_unit, mesh.faces)
+    unit = vectors / np.maximum(np.linalg.norm(vectors, axis=1, keepdims=True), np.finfo(np.float64).tiny)
+    face, side = np.nonzero((opposite[first:] >= 0) & (opposite[first:] < first))
+    ends = mesh.vertices_in_unit[np.stack([mesh.faces[first + face, side], mesh.faces[first + face, (side + 1) % 3]])]
+    lengths = np.linalg.norm(ends[1] - ends[0], axis=1)
+    cosines = np.einsum("nc,nc->n", unit[first + face], unit[opposite[first + face, side]])
+    count = len(mesh.patches)
+    perimeters = np.bincount(labels[face], lengths, count)
+    continued = np.bincount(labels[face], lengths * cosines, count) / np.maximum(perimeters, np.finfo(np.float64).tiny)
+    emptiest = np.zeros(count)
+    np.maximum.at(emptiest, labels, empty)
+    lids = (emptiest > EMPTY) & (continued < ACROSS)
+    return _without(mesh, lids[labels], int(lids.sum())) if lids.any() else mesh
+
+
+def _emptiness(mesh: Mesh, surface: Surface) -> NDArray[np.float64]:
+    """Return how far (k,) each face of the patches is from points, where it is farthest, in spacings there."""
+    if not len(mesh.patches):
+        return np.zeros(0)
+    points = surface.points_in_unit
+    places = np.einsum("wc,tcx->twx", MIDDLES, mesh.patches)
+    nearest = _core.nearest_neighbors(points, places.reshape(-1, 3), 1)[:, 0]
+    distances = np.linalg.norm(points[nearest] - places.reshape(-1, 3), axis=1)
+    # A point on the rim has its neighbours on one side, and seems to have more area: the least around is the inside's.
+    near = surface.neighbors[nearest, :AREA_NEIGHBORS]
+    areas = areas_shown(points, surface.neighbors)
+    around = np.quantile(np.where(near >= 0, areas[near], areas[nearest, None]), 0.25, axis=1)
+    shares = distances / np.sqrt(np.maximum(around, np.finfo(np.float64).tiny))
+    return np.asarray(shares.reshape(len(places), -1).max(axis=1))
+
+
+def _opposite_faces(faces: NDArray[np.int64]) -> NDArray[np.int64]:
+    """Return the face (f, 3) beyond each edge of oriented faces (f, 3): from corner to corner; -1 where none is."""
+    starts, ends = faces.ravel(), np.roll(faces, -1, axis=1).ravel()
+    count = int(faces.max()) + 1
+    keys, back = starts * count + ends, ends * count + starts
+    order = np.argsort(keys)
+    at = order[np.searchsorted(keys[order], back).clip(max=len(keys) - 1)]
+    return np.where(keys[at] == back, at // 3, -1).reshape(-1, 3)
+
+
+def _labels_of_patches(opposite: NDArray[np.int64], first: int) -> NDArray[np.int64]:
+    """Return for each face (k,) of the patches, those from the `first` on, the first that hangs together with it."""
+    beyond = opposite[first:] - first
+    inner = beyond >= 0
+    labels = np.arange(len(beyond))
+    while True:
+        lowered = np.minimum(labels, np.where(inner, labels[np.where(inner, beyond, 0)], labels[:, None]).min(axis=1))
+        lowered = lowered[lowered]
+        if np.array_equal(lowered, labels):
+            return labels
+        labels = lowered
+
+
+def _without(mesh: Mesh, dropped: NDArray[np.bool_], holes: int) -> Mesh:
+    """Return a mesh without those faces of its patches (k,) that are `dropped`, which closed so many holes."""
+    first = len(mesh.faces) - len(mesh.patches)
+    faces = np.vstack([mesh.faces[:first], mesh.faces[first:][~dropped]])
+    used = np.zeros(len(mesh.vertices_in_unit), dtype=bool)
+    used[faces] = True
+    numbers = np.cumsum(used) - 1
+    vertices, faces = mesh.vertices_in_unit[used], numbers[faces]
+    statistics = dict(mesh.statistics)
+    statistics["holes_filled"] -= holes
+    statistics["holes_left"] += holes
+    statistics["faces_joined"] = len(faces)
+    statistics["area_filled"] = mesh_area(vertices, faces[first:]) / mesh_area(vertices, faces)
+    return replace(
+        mesh,
+        vertices_in_unit=vertices,
+        faces=faces,
+        coordinates=mesh.coordinates[used],
+        statistics=statistics,
+        patches=mesh.patches[~dropped],
+    )
