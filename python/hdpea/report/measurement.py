@@ -142,7 +142,7 @@ def missed_targets(mesh: Mesh, facts: MeshFacts, options: MeshingOptions) -> Ite
     excess = budget.excess(mesh)
     # With an error, the number is the most there may be.
     if excess > 0:
-        yield f"{budget.comparison(mesh)} Fewer would not hold together: ask for more."
+        yield f"{budget.comparison(mesh).removesuffix('.')}: ask for more."
     elif excess < 0 and options.error is None:
         yield budget.comparison(mesh)
     if options.watertight and not facts.closed:

@@ -44,9 +44,12 @@ def test_points_that_coincide_are_smooth() -> None:
     assert roughness_of(points).deviation < 1e-6
 
 
-def test_of_noise_that_differs_that_of_the_roughest_regions_is_told() -> None:
+@pytest.mark.parametrize("noise_along", [lambda x: 0.1 + 0.7 * x, lambda x: x**2], ids=["from some", "from none"])
+def test_of_noise_that_differs_that_of_the_roughest_regions_is_told(
+    noise_along: Callable[[clouds.Array], clouds.Array],
+) -> None:
     random = np.random.default_rng(0)
     points, spacing = random.random((10_000, 3)) * [1, 1, 0], 10_000**-0.5
-    share = 0.1 + 0.7 * points[:, 0]
+    share = noise_along(points[:, 0])
     points[:, 2] = spacing * share * random.normal(size=10_000)
     assert 0.45 < roughness_of(points).noise < 0.8
