@@ -116,6 +116,7 @@ def test_the_report_tells_everything(tmp_path: Path) -> None:
         "device",
         "bending_length",
         "curvature_radius",
+        "iterations",
         "disk_radius",
         "fill_holes",
     }

@@ -12,6 +12,7 @@ import click
 
 from hdpea.cli.parameters import GroupedCommand, GroupedOption, setting_options
 from hdpea.cli.tiles import MemoryType, Resources
+from hdpea.errors import UsageError
 
 if TYPE_CHECKING:
     from hdpea.options.classes import Classes
@@ -111,10 +112,12 @@ def _normals(facts: CloudFacts) -> str:
     return f"{usable:,} usable, {facts.normal_agreement:.1%} of neighbours agree on the side: {fate}"
 
 
+ONE_PIECE = "--error and colours are for one piece: cut a larger cloud yourself"
+
+
 def _needs(facts: CloudFacts, resources: Resources) -> str:
-    from hdpea.report.cost import PEAK_BYTES, TILED_DISK_BYTES, TILED_SECONDS, TILED_WHOLE_BYTES, WITHOUT_NORMALS
+    from hdpea.report.cost import WITHOUT_NORMALS
     from hdpea.surface.surface import MIN_POINTS
-    from hdpea.tiling.plan import TILE_POINTS
 
     points = facts.counts["points"]
     if points < MIN_POINTS:
@@ -123,15 +126,29 @@ def _needs(facts: CloudFacts, resources: Resources) -> str:
     if not (facts.counts["usable_normals"] and facts.normals_fit):
         cost += f" (up to {WITHOUT_NORMALS * facts.estimated_peak_bytes / 1e9:.1f}, since normals are estimated)"
     if facts.estimated_peak_bytes > resources.bytes():
-        each = PEAK_BYTES.of(TILE_POINTS, round(TILE_POINTS * facts.default_vertices / points))
-        whole = TILED_WHOLE_BYTES.of(points, facts.default_vertices)
-        return (
-            f"about {TILED_SECONDS * points:.0f} s in tiles with --jobs 2, {each / 1e9:.1f} GB in each process, "
-            f"{whole / 1e9:.1f} GB in the end for the whole mesh{_fewer(whole, resources)}, and "
-            f"{TILED_DISK_BYTES * points / 1e9:.1f} GB of the disk, for {facts.default_vertices:,} vertices; "
-            f"in one piece {cost}. --error and colours are for one piece: cut a larger cloud yourself"
-        )
+        return f"{_in_tiles(points, facts.default_vertices, resources)}; in one piece {cost}. {ONE_PIECE}"
     return f"{cost} for {facts.default_vertices:,} vertices, on two idle cores"
+
+
+def _in_tiles(points: int, vertices: int, resources: Resources) -> str:
+    """Return what a cloud of so many points needs in tiles, as many at a time as there is memory for, two at most."""
+    from hdpea.options import Options
+    from hdpea.report.cost import PEAK_BYTES, TILED_DISK_BYTES, TILED_SECONDS, TILED_WHOLE_BYTES
+    from hdpea.tiling.run import Tiling
+
+    tiling = Tiling(Path(), resources.bytes(), jobs=2)
+    try:
+        tile_points, _ = tiling.sizes(Options(), points)
+    except UsageError:
+        return "more memory than that, even in tiles"
+    jobs = tiling.workers(tile_points, points / vertices)
+    each = PEAK_BYTES.of(tile_points, round(tile_points * vertices / points))
+    whole = TILED_WHOLE_BYTES.of(points, vertices)
+    return (
+        f"about {2 / jobs * TILED_SECONDS * points:.0f} s in tiles with --jobs {jobs}, {each / 1e9:.1f} GB in each "
+        f"process, {whole / 1e9:.1f} GB in the end for the whole mesh{_fewer(whole, resources)}, and "
+        f"{TILED_DISK_BYTES * points / 1e9:.1f} GB of the disk, for {vertices:,} vertices"
+    )
 
 
 def _fewer(whole: float, resources: Resources) -> str:

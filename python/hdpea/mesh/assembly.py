@@ -17,6 +17,7 @@ from hdpea.mesh.lids import without_lids
 from hdpea.mesh.particles import spread_particles
 from hdpea.mesh.repair import repair_mesh
 from hdpea.options import MeshingOptions, Options, ParticleOptions
+from hdpea.options.choice import Choice
 from hdpea.options.particles import ITERATIONS, ITERATIONS_OF_MANY
 from hdpea.runtime.clock import StageClock
 from hdpea.runtime.progress import ProgressCallback, of_phase, tell
@@ -152,7 +153,7 @@ def _mesh_of_particles(
 ) -> Mesh:
     """Spread particles and join them; where that makes too few vertices, spread more."""
     count, share_kept = counts.particles, counts.vertices / counts.particles
-    spreading = _spreading(options.particles, evened=counts.many and options.meshing.error is None)
+    spreading, choices = _spreading(options.particles, evened=counts.many and options.meshing.error is None)
     attempts = list[Mesh]()
     while len(attempts) < ATTEMPTS:
         with clock.stage("particles"):
@@ -171,7 +172,8 @@ def _mesh_of_particles(
             mesh = extract_mesh(particles, bases, surface, options.meshing, share_kept, counts.resolution, exact=exact)
             # A size that was asked for is kept to.
             chosen = options.meshing.fill_holes is None and not options.meshing.watertight
-            attempts.append(without_lids(mesh, surface) if chosen else mesh)
+            mesh = without_lids(mesh, surface) if chosen else mesh
+            attempts.append(replace(mesh, choices=(*choices, *mesh.choices)))
             tell(progress, "meshing", 1)
         excess = Budget.of(options.meshing).excess(attempts[-1])
         if excess >= 0:
@@ -180,8 +182,10 @@ def _mesh_of_particles(
     return max(attempts, key=lambda mesh: len(mesh.vertices_in_unit))
 
 
-def _spreading(options: ParticleOptions, *, evened: bool) -> ParticleOptions:
+def _spreading(options: ParticleOptions, *, evened: bool) -> tuple[ParticleOptions, tuple[Choice, ...]]:
     """Return the options with a number of steps: fewer if the mesh is `evened` out afterwards."""
     if options.iterations is not None:
-        return options
-    return replace(options, iterations=ITERATIONS_OF_MANY if evened else ITERATIONS)
+        return options, ()
+    steps = ITERATIONS_OF_MANY if evened else ITERATIONS
+    why = f"their mesh is {'' if evened else 'not '}evened out afterwards"
+    return replace(options, iterations=steps), (Choice("iterations", steps, "steps", why),)
