@@ -70,9 +70,9 @@ def reconstruct_cloud(
     clock = journal.clock
     made = _make(cloud, options, progress, clock, embedder)
     # Before any piece is turned, as its points are not.
-    carried = _carried(made, clock)
-    texture = _texture(made, options.texture, clock)
-    levels = _levels(made, journal)
+    carried = _carried(made, clock, progress)
+    texture = _texture(made, options.texture, clock, progress)
+    levels = _levels(made, journal, progress)
     faced = _facing_out(made.mesh, made.prepared)
     report = _report(made, faced, journal, progress)
     return Reconstruction(
@@ -120,29 +120,32 @@ def _facing_out(mesh: Mesh, prepared: Preparation) -> FacedMesh:
     return facing_out(mesh) if prepared.oriented.computed_sides else FacedMesh(mesh)
 
 
-def _carried(made: _Made, clock: StageClock) -> dict[str, NDArray[Any]]:
+def _carried(made: _Made, clock: StageClock, progress: ProgressCallback | None) -> dict[str, NDArray[Any]]:
     """Return the attributes of a cloud at the vertices of its mesh; a stage only where there are any."""
     if not made.cloud.attributes:
         return {}
     with clock.stage("attributes"):
+        tell(progress, "attributes", 0)
         return vertex_attributes(made.mesh, made.prepared.surface, made.cloud.attributes)
 
 
-def _texture(made: _Made, size: int | None, clock: StageClock) -> Texture | None:
+def _texture(made: _Made, size: int | None, clock: StageClock, progress: ProgressCallback | None) -> Texture | None:
     """Return the texture, if one is asked for."""
     colors, _ = split_colors(made.cloud.attributes)
     if size is None or colors is None:
         return None
     with clock.stage("texture"):
+        tell(progress, "texture", 0)
         return texture_of(made.mesh, made.prepared.surface, colors, size)
 
 
-def _levels(made: _Made, journal: Journal) -> tuple[Level, ...]:
+def _levels(made: _Made, journal: Journal, progress: ProgressCallback | None) -> tuple[Level, ...]:
     """Return the coarser levels of a mesh; a stage, and in the journal, only where there are any."""
     if journal.options.meshing.lod == 1:
         return ()
     levels, surface = list[Level](), made.prepared.surface
     with journal.clock.stage("levels"):
+        tell(progress, "levels", 0)
         for each in coarser_levels(made.mesh, surface, journal.options):
             faces = _facing_out(each, made.prepared).mesh.faces
             attributes = vertex_attributes(each, surface, made.cloud.attributes)

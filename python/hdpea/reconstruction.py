@@ -31,11 +31,14 @@ PHASES = (
     "simplification",
     "remeshing",
     "repair",
+    "attributes",
+    "texture",
+    "levels",
     "measuring",
 )
-"""The phases that ``progress`` hears of, in order; of denoising only if there is noise, or it is asked for, and of
-simplification, remeshing, and another refinement after them, only if fewer vertices are wanted than particles are
-spread."""
+"""The phases that ``progress`` hears of, in order; of denoising only if there is noise, or it is asked for; of
+simplification, remeshing, and another refinement after them only if fewer vertices are wanted than particles are
+spread; of attributes, texture and levels only if there are any."""
 
 
 def reconstruct(

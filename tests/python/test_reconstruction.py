@@ -19,6 +19,7 @@ from hdpea.mesh.particles import Particles, spread_particles
 from hdpea.options import DenoisingOptions, Length, MeshingOptions, Options
 from hdpea.reading.cloud import cleaned, from_arrays
 from hdpea.reconstruction import PHASES
+from hdpea.runtime.progress import ProgressCallback
 
 
 @pytest.mark.parametrize("shape", ["sphere", "torus", "cube", "plate"])
@@ -91,12 +92,18 @@ def test_phases_come_in_order_and_any_of_them_can_stop_the_run() -> None:
         return True
 
     every = replace(options(50), denoising=DenoisingOptions(denoise="mls"))
-    reconstruct(points, normals, every, listen)
+    every = replace(every, meshing=replace(every.meshing, lod=2), texture=64)
+    colors = {"colors": np.full((500, 3), 200, np.uint8)}
+    reconstruct(points, normals, every, listen, attributes=colors)
     assert tuple(dict.fromkeys(phase for phase, _ in told)) == PHASES
     assert all(0 <= fraction <= 1 for _, fraction in told)
+
+    def stopping(at: str) -> ProgressCallback:
+        return lambda phase, _: phase != at
+
     for stopped in PHASES:
         with pytest.raises(Interrupted):
-            reconstruct(points, normals, every, lambda phase, _, stopped=stopped: phase != stopped)  # type: ignore[misc]
+            reconstruct(points, normals, every, stopping(stopped), attributes=colors)
 
 
 def test_the_report_tells_everything(tmp_path: Path) -> None:
@@ -134,7 +141,8 @@ def test_the_report_tells_everything(tmp_path: Path) -> None:
     for unit in ("in_world_units", "in_spacings"):
         distances = told["distances"][unit]
         assert 0 < distances["mean"] < distances["rms"] < distances["percentile_95"] < distances["max"]
-    always = [phase for phase in PHASES if phase not in {"simplification", "remeshing"}]
+    asked_for = {"simplification", "remeshing", "attributes", "texture", "levels"}
+    always = [phase for phase in PHASES if phase not in asked_for]
     assert [stage["name"] for stage in told["stages"]] == always
     assert all(stage["seconds"] > 0 and stage["peak_bytes"] > 1e6 for stage in told["stages"])
 

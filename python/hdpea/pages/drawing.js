@@ -52,6 +52,7 @@ function show(shown) {
 /** Rectangles of the panels in CSS pixels, from the lower left. */
 function panels() {
   const { clientWidth: width, clientHeight: height } = canvas;
+  document.documentElement.classList.toggle("stacked", width <= height); // for the names below them
   if (scenes.length < 2) return [[0, 0, width, height]];
   if (width > height) return [[0, 0, width / 2, height], [width / 2, 0, width / 2, height]];
   return [[0, height / 2, width, height / 2], [0, 0, width, height / 2]];
