@@ -45,9 +45,15 @@ def test_tiles_lie_beside_the_mesh_unless_a_folder_is_named(tmp_path: Path) -> N
 def test_info_tells_what_will_be_made_in_tiles(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    np.save(tmp_path / "scan.npy", clouds.sphere(800)[0])
-    assert run(["info", str(tmp_path / "scan.npy")]) == 0
-    assert "in tiles" not in capsys.readouterr().out
-    monkeypatch.setattr(Resources, "bytes", lambda _: 1.0)
-    assert run(["info", str(tmp_path / "scan.npy")]) == 0
-    assert "GB of the disk, for 100 vertices; in one piece about" in capsys.readouterr().out
+    np.save(tmp_path / "scan.npy", clouds.sphere(40_000)[0])
+
+    def told(memory: float) -> str:
+        monkeypatch.setattr(Resources, "bytes", lambda _: memory)
+        assert run(["info", str(tmp_path / "scan.npy")]) == 0
+        return capsys.readouterr().out
+
+    assert "in tiles" not in told(1e9)
+    little = told(0.32e9)  # of which the least process takes 0.28
+    assert "in tiles with --jobs 1, 0.3 GB in each process" in little
+    assert "GB of the disk, for 5,000 vertices; in one piece about" in little
+    assert "more memory than that, even in tiles; in one piece about" in told(1.0)
