@@ -37,7 +37,7 @@ NOT_RUN = {
     r"\.venv/bin/python benchmarks/": "hours, and meshes that are not in the repository",
     r"hdpea (benchmark|train) ": "hours, and other methods; their tests have small ones",
     r"torchrun ": "hours",
-    r"(\.venv/bin/python examples/shapes\.py|hdpea reconstruct) knot\.ply ": "ten million points",
+    r"(\.venv/bin/python examples/shapes\.py|hdpea reconstruct) knot[. ]": "ten million points",
 }
 """Commands that are not run, by how they begin, and why."""
 
