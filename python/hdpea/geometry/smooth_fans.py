@@ -6,6 +6,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from hdpea.geometry.linked import first_linked
 from hdpea.geometry.triangles import area_vectors
 
 CREASE = 40.0
@@ -23,18 +24,7 @@ def split_at_creases(
     degrees. Vertices without creases occur once, in their order; those of no face are left out.
     """
     first, second = _corners_joined(vertices, faces, most_degrees)
-    label = np.arange(faces.size)
-    while True:
-        # The least label spreads over each fan, and in jumps along those that it has come to.
-        least = np.minimum(label[first], label[second])
-        spread = label.copy()
-        np.minimum.at(spread, first, least)
-        np.minimum.at(spread, second, least)
-        spread = spread[spread]
-        if np.array_equal(spread, label):
-            break
-        label = spread
-    keys = np.stack([faces.ravel(), label], axis=1)
+    keys = np.stack([faces.ravel(), first_linked(faces.size, first, second)], axis=1)
     fans, corners = np.unique(keys, axis=0, return_inverse=True)
     return fans[:, 0], corners.reshape(faces.shape)
 

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hdpea import _core
+from hdpea.geometry.linked import first_linked
 from hdpea.geometry.triangles import area_vectors, mesh_area
 from hdpea.mesh.coverage import MIDDLES
 from hdpea.mesh.extraction import Mesh
@@ -82,14 +83,8 @@ def _opposite_faces(faces: NDArray[np.int64]) -> NDArray[np.int64]:
 def _labels_of_patches(opposite: NDArray[np.int64], first: int) -> NDArray[np.int64]:
     """Return for each face (k,) of the patches, those from the `first` on, the first that hangs together with it."""
     beyond = opposite[first:] - first
-    inner = beyond >= 0
-    labels = np.arange(len(beyond))
-    while True:
-        lowered = np.minimum(labels, np.where(inner, labels[np.where(inner, beyond, 0)], labels[:, None]).min(axis=1))
-        lowered = lowered[lowered]
-        if np.array_equal(lowered, labels):
-            return labels
-        labels = lowered
+    faces, sides = np.nonzero(beyond >= 0)
+    return first_linked(len(beyond), faces, beyond[faces, sides])
 
 
 def _without(mesh: Mesh, dropped: NDArray[np.bool_], holes: int) -> Mesh:

@@ -39,7 +39,7 @@ class PointStream:
     streamed
         Whether only a piece of it is in memory at a time.
     attributes
-        Names of what its points have, where the pieces leave some of them out; none where they do not.
+        Returns the names of what its points have, where the pieces leave some of them out; none where they do not.
     """
 
     name: str
@@ -49,7 +49,7 @@ class PointStream:
     crs: str | None = None
     identity: str = ""
     streamed: bool = True
-    attributes: tuple[str, ...] = ()
+    attributes: Callable[[], tuple[str, ...]] = tuple
 
 
 def stream_of(path: Path) -> PointStream | None:
@@ -90,7 +90,6 @@ def _las_stream(path: Path) -> PointStream | None:
         with laspy.open(path) as reader:
             header = reader.header
             told = [*header.vlrs, *(header.evlrs or [])]
-            attributes = attributes_of_las(reader)
     except Exception:  # noqa: BLE001 the usual reader says what is wrong
         return None
 
@@ -98,6 +97,10 @@ def _las_stream(path: Path) -> PointStream | None:
         with laspy.open(path) as reader:
             for chunk in reader.chunk_iterator(CHUNK):
                 yield parse_las_chunk(chunk)
+
+    def attributes() -> tuple[str, ...]:
+        with laspy.open(path) as reader:
+            return attributes_of_las(reader)
 
     kind = "LAZ" if header.are_points_compressed else "LAS"
     name, count = f"{kind} {header.version}", header.point_count

@@ -43,7 +43,7 @@ def inspect_stream(stream: PointStream) -> CloudFacts:
     return replace(
         facts,
         counts=counts,
-        attributes=list(stream.attributes) or facts.attributes,
+        attributes=list(stream.attributes()) or facts.attributes,
         classes=None if facts.classes is None else {each: round(times * n) for each, n in facts.classes.items()},
         low=low.tolist(),
         high=high.tolist(),

@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hdpea import _core
+from hdpea.geometry.linked import first_linked
 from hdpea.surface.surface import AREA_NEIGHBORS, areas_shown
 
 Vectors = NDArray[np.float64]
@@ -75,19 +76,7 @@ def _linked(points: Vectors, neighbors: NDArray[np.int64], spacings: Vectors) ->
     others = neighbors.ravel()
     lengths = np.linalg.norm(points[others] - points[rows], axis=1)
     linked = lengths <= LINKED * np.minimum(spacings[rows], spacings[others])
-    rows, others = rows[linked], others[linked]
-    labels = np.arange(len(points))
-    while True:
-        least = np.minimum(labels[rows], labels[others])
-        lowered = labels.copy()
-        # With the label of an end that of the point it names is lowered, so that few rounds are enough.
-        for ends in (rows, others):
-            np.minimum.at(lowered, labels[ends], least)
-            np.minimum.at(lowered, ends, least)
-        lowered = lowered[lowered]
-        if np.array_equal(lowered, labels):
-            return labels
-        labels = lowered
+    return first_linked(len(points), rows[linked], others[linked])
 
 
 def _continues(points: Vectors, directions: Vectors, rows: NDArray[np.int64], reach: float) -> bool:

@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 from hdpea import _core
 from hdpea.errors import CannotReconstruct
+from hdpea.geometry.linked import first_linked
 from hdpea.tiling.work import Work
 
 Piece = tuple[int, int]
@@ -151,13 +152,6 @@ def _signs(labels: dict[int, NDArray[np.int64]], votes: Votes, fixed: set[int]) 
 
 def pieces(neighbors: NDArray[np.integer]) -> NDArray[np.int64]:
     """Return the number (n,) of the connected piece that each point belongs to, by its `neighbors` (n, k), -1: none."""
-    label = np.arange(len(neighbors))
-    itself = label[:, None]
-    near = np.where(neighbors[:, :8] < 0, itself, neighbors[:, :8])
-    while True:
-        least = np.minimum(label, label[near].min(axis=1))
-        np.minimum.at(least, near.ravel(), np.repeat(least, near.shape[1]))
-        least = least[least]
-        if (least == label).all():
-            return np.unique(label, return_inverse=True)[1]
-        label = least
+    rows, columns = np.nonzero(neighbors[:, :8] >= 0)
+    firsts = first_linked(len(neighbors), rows, neighbors[rows, columns])
+    return np.unique(firsts, return_inverse=True)[1]

@@ -23,7 +23,7 @@ def assert_streamed_as_read(stream: PointStream | None, path: Path) -> None:
     assert len(chunks) > 1
     points = np.vstack([chunk.points for chunk in chunks])
     assert (stream.format, stream.crs) == (whole.format, whole.crs)
-    assert (stream.attributes or tuple(chunks[0].attributes)) == tuple(whole.attributes)
+    assert (stream.attributes() or tuple(chunks[0].attributes)) == tuple(whole.attributes)
     np.testing.assert_array_equal(points[np.isfinite(points).all(axis=1)], whole.points)
     normals = [chunk.normals for chunk in chunks if chunk.normals is not None]
     assert (whole.normals is None) == (not normals)
