@@ -123,16 +123,19 @@ def _distances_at_vertices(
     """Return the distances of points at the vertices, and which faces (f,) have none, but should by their `areas`."""
     with core_errors_translated():
         nearest = _core.closest_surface_points(vertices, faces, points)
-    largest = float(nearest.distance.max()) or 1.0
-    squares = np.bincount(nearest.face, (nearest.distance / largest) ** 2, len(faces))
+    # A stray is far from any mesh, and would colour the faces that happen to be nearest to it, and end the ramp.
+    high = _percentile(nearest.distance, SATURATED)
+    scale = high or 1.0
+    squares = np.bincount(nearest.face, (nearest.distance.clip(max=high) / scale) ** 2, len(faces))
     counts = np.bincount(nearest.face, minlength=len(faces)).astype(np.float64)
     means = np.divide(squares, counts, out=np.zeros(len(faces)), where=counts > 0)
-    distances = largest * np.sqrt(vertex_means(means, faces, counts, len(vertices)))
+    distances = scale * np.sqrt(vertex_means(means, faces, counts, len(vertices)))
     note = (
-        "Distance of the points on a vertex's faces, root mean square, in units of the file; dark grey: there are none."
+        "Distance of the points on a vertex's faces, root mean square, in units of the file, the farthest two of a "
+        "hundred points taken for as far as the ramp goes; dark grey: there are none."
     )
     bare = (counts == 0) & (areas * len(points) > EXPECTED * areas.sum())
-    return Coloring(DISTANCE, distances, 0.0, _percentile(distances, SATURATED), note), bare
+    return Coloring(DISTANCE, distances, 0.0, high, note), bare
 
 
 def _of_attributes(attributes: Attributes, count: int) -> Iterator[Coloring | OwnColors]:

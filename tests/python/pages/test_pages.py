@@ -125,6 +125,20 @@ def test_distances_are_those_of_the_points() -> None:
     assert np.isnan(distance.values[vertices[:, 2] < -0.1]).all()
 
 
+def test_strays_neither_end_the_ramp_nor_colour_the_mesh() -> None:
+    vertices, faces = meshes.icosphere()
+    ball = 1.25 * np.linalg.norm(vertices[0]) * clouds.sphere(20_000)[0]
+    strays = 50 * clouds.sphere(200)[0]
+
+    def shown(points: NDArray[np.float64]) -> Coloring:
+        shape = mesh_shape("mesh", vertices, faces, points)
+        return next(each for each in shape.colorings if each.name == DISTANCE and isinstance(each, Coloring))
+
+    clean, strayed = shown(ball), shown(np.vstack([ball, strays]))
+    assert strayed.high == pytest.approx(clean.high, rel=0.1)
+    np.testing.assert_allclose(strayed.values, clean.values, rtol=0.1)
+
+
 def test_attributes_can_be_shown() -> None:
     points = clouds.sphere(10)[0]
     colors = {name: np.full(10, value, np.uint16) for name, value in (("red", 65_535), ("green", 257), ("blue", 0))}
