@@ -13,6 +13,7 @@ import pytest
 import trimesh
 from helpers import clouds, meshes
 from helpers.browser import Browser
+from numpy.typing import NDArray
 
 from hdpea.cli import run
 from hdpea.errors import UsageError
