@@ -84,7 +84,7 @@ def assemble_mesh(
     options, clock = options or Options(), clock or StageClock()
     points_shown = points_shown or len(surface.points_in_unit)
     counts = _Counts(
-        min(options.particles_of(points_shown, exact=exact), len(surface.points_in_unit)),
+        options.particles_of(len(surface.points_in_unit), points_shown, exact=exact),
         options.vertices_of(points_shown),
         options.resolution_of(points_shown),
     )

@@ -71,7 +71,7 @@ def particles_wanted(
             f"{asked} {what} were asked for, but there are {points} distinct points on the surface.",
             f"Ask for at most half as many {what} as there are points.",
         )
-    particles = min(options.particles_of(points_shown, exact=exact), points)
+    particles = options.particles_of(points, points_shown, exact=exact)
     if given is not None:
         return particles, ()
     choices = list[Choice]()

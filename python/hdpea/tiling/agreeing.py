@@ -38,7 +38,7 @@ def agree(work: Work) -> None:
         "spacing": float(np.sqrt(sum(each["area"] for each in facts) / resolution)),
         "resolution": resolution,
         "vertices": work.options.vertices_of(shown),
-        "particles": min(work.options.particles_of(shown, exact=exact), points),
+        "particles": work.options.particles_of(points, shown, exact=exact),
         "per_vertex": points / resolution,
         "points": points,
         "computed_sides": any(each["computed_sides"] for each in facts),
