@@ -1,9 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
+import pytest
 
 from hdpea import _core
+from hdpea.mesh import repair
 from hdpea.mesh.extraction import Mesh
 from hdpea.mesh.repair import FARTHEST, repair_mesh
 
@@ -48,3 +52,22 @@ def test_what_would_lose_points_is_not_mended():
         mended = repair_mesh(spiked, points)
         away = _core.closest_surface_points(mended.vertices_in_unit, mended.faces, tips).distance
         assert (away.max() <= FARTHEST * spacing) == tips_stay
+
+
+def test_what_mending_cuts_off_goes_and_small_pieces_stay(monkeypatch: pytest.MonkeyPatch) -> None:
+    flat, small = _grid(11), _grid(3)
+    both = Mesh(
+        np.vstack([flat.vertices_in_unit, small.vertices_in_unit + 5]),
+        np.vstack([flat.faces, small.faces + len(flat.vertices_in_unit)]),
+        np.vstack([flat.coordinates, small.coordinates + 5]),
+    )
+    # Without the faces around it a corner of the large grid is an island.
+    x, y = both.vertices_in_unit[both.faces].mean(axis=1)[:, :2].T
+    cut = replace(both, faces=both.faces[(np.maximum(x, y) > 0.3) | (np.maximum(x, y) < 0.2)], self_intersections=0)
+    monkeypatch.setattr(repair, "_repaired", lambda *_: cut)
+    mended = repair_mesh(both, MIDDLE, exact=False)
+    corners = mended.vertices_in_unit[mended.faces].reshape(-1, 3)
+    assert ((corners[:, 0] > 4) | (corners[:, :2].max(axis=1) >= 0.2)).all()
+    assert (corners[:, 0] > 4).sum() == 3 * len(small.faces)
+    assert len(mended.coordinates) == len(mended.vertices_in_unit)
+    np.testing.assert_array_equal(mended.coordinates[:, :3], mended.vertices_in_unit)
