@@ -111,7 +111,8 @@ def _make(
     surface, parts = prepared.surface, prepared.oriented.parts
     mesh, mesh_choices = mesh_surface(surface, budgeted, shown, parts, progress, clock, embedder, exact=exact)
     wanted = budgeted.vertices_of(shown) if options.meshing.error is None else len(mesh.vertices_in_unit)
-    choices = (*noise_choices, *count_choices, *mesh_choices, *mesh.choices)
+    own = () if embedder is None else (Choice("embedding", "given", "", "an embedder was passed"),)
+    choices = (*noise_choices, *count_choices, *own, *mesh_choices, *mesh.choices)
     return _Made(found, cloud, prepared, mesh, wanted, choices)
 
 

@@ -115,7 +115,8 @@ def embed_points(
     with limited_threads(options.threads):
         cloud = cleaned_cloud(points, normals, sensors)
         found = surface_cloud(cloud, options.cleaning)
-        cloud = found.cloud
+        # The order that `reconstruct` embeds in, so that psi is the same: rounding may lead to another.
+        cloud = found.in_order_of_space()
         vertices = options.resolution_of(found.points_shown)
         prepared = prepare_surface(
             cloud, options.normals, points_per_vertex=len(cloud.points) / vertices, progress=progress
@@ -127,4 +128,6 @@ def embed_points(
         choices += device_choices(options.embedding.device)
     notes = (*cloud.notes, *found.notes, *prepared.notes)
     index = cloud.places()
-    return Embedding(cloud.points, surface.normals, embedded.coordinates, index, surface.frame, choices, notes)
+    rows = np.argsort(index)
+    points_in_world, coordinates = cloud.points[rows], embedded.coordinates[rows]
+    return Embedding(points_in_world, surface.normals[rows], coordinates, index[rows], surface.frame, choices, notes)

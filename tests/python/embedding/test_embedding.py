@@ -9,8 +9,9 @@ import numpy as np
 import pytest
 from helpers import clouds
 
-from hdpea import _core, embed_points
+from hdpea import _core, embed_points, reconstruct
 from hdpea.embedding import EMBEDDERS, Embedding, embed_surface
+from hdpea.embedding.embedded import Embedded
 from hdpea.errors import Interrupted, UsageError
 from hdpea.options import EmbeddingOptions, MeshingOptions, Options
 from hdpea.options.lengths import Length
@@ -168,3 +169,20 @@ def test_each_row_says_which_of_the_given_points_it_is() -> None:
     np.testing.assert_array_equal(other.points, given[shuffled][other.point_index])
     assert set(shuffled[other.point_index]) == set(as_given.point_index) <= set(range(1, 801))
     assert (np.diff(other.point_index) > 0).all()
+
+
+def test_the_mesh_of_the_same_cloud_is_made_of_the_same_embedding() -> None:
+    points = np.random.default_rng(1).permutation(clouds.torus(12_000)[0])
+    seen = list[tuple[clouds.Array, clouds.Array]]()
+
+    def watched(surface: Surface, vertices: int, options: EmbeddingOptions, _: object) -> Embedded:
+        made = embed_surface(surface, vertices, options)
+        seen.append((surface.frame.to_world(surface.points_in_unit), made.coordinates))
+        return made
+
+    mesh = reconstruct(points, embedder=watched)
+    in_world, coordinates = seen[0]
+    alone = embed_points(points)
+    same = _core.nearest_neighbors(in_world, alone.points, 1)[:, 0]
+    np.testing.assert_array_equal(coordinates[same], alone.coordinates)
+    assert "given" in {choice.value for choice in mesh.report.choices if choice.name == "embedding"}
