@@ -34,7 +34,8 @@ class ParticleOptions(Checked):
         "particles to spread; their mesh is simplified where fewer vertices are wanted; default: one for every "
         f"{POINTS_PER_PARTICLE} points, at most {ENOUGH_PARTICLES:,} or {ENOUGH_PER_VERTEX} for each vertex; one for "
         f"every {POINTS_PER_ROUGH_PARTICLE} where points were denoised, or most normals estimated, and no more than a "
-        f"vertex for every {POINTS_PER_VERTEX} is wanted; as many as vertices where that is hardly more",
+        f"vertex for every {POINTS_PER_VERTEX} is wanted; one for every {POINTS_PER_VERTEX} with an error; as many as "
+        "vertices where that is hardly more",
         minimum=4,
     )
     iterations: int | None = option(

@@ -82,9 +82,14 @@ class Options(Checked):
             How many evenly spread points would show as much; default: as many.
         """
         shown = points if shown is None else shown
-        hardly = shown // POINTS_PER_VERTEX < self.meshing.vertices_of(shown)
-        # Points on scan lines show more along these than across them, where noise leaves nothing between two.
-        enough = shown // POINTS_PER_PARTICLE if exact or hardly else min(points, shown) // POINTS_PER_ROUGH_PARTICLE
+        if exact or shown // POINTS_PER_VERTEX < self.meshing.vertices_of(shown):
+            enough = shown // POINTS_PER_PARTICLE
+        elif self.meshing.error is not None:
+            # The bound says where more are needed, and faces are split there.
+            enough = shown // POINTS_PER_VERTEX
+        else:
+            # Points on scan lines show more along these than across them, where noise leaves nothing between two.
+            enough = min(points, shown) // POINTS_PER_ROUGH_PARTICLE
         return min(self._enough(enough, shown), points)
 
     def _enough(self, enough: int, shown: int) -> int:

@@ -11,6 +11,7 @@ from helpers.reconstructions import cloud_of, options
 from hdpea import Reconstruction, _core, reconstruct
 from hdpea.errors import Interrupted, UsageError
 from hdpea.options import MeshingOptions, Options, ParticleOptions
+from hdpea.options.lengths import Length
 
 
 def thin_ring(count: int) -> clouds.Cloud:
@@ -96,6 +97,11 @@ def test_particles_are_as_many_as_the_points_can_show(points: int, vertices: int
 def test_what_is_not_exact_shows_less_and_tears_no_more(vertices: int | None, particles: int) -> None:
     wanted = Options(meshing=MeshingOptions(vertices=vertices))
     assert wanted.particles_of(40_000, exact=False) == particles
+
+
+def test_an_error_bound_begins_with_as_many_as_vertices_show() -> None:
+    wanted = Options(meshing=MeshingOptions(error=Length(1, percent=True)))
+    assert wanted.particles_of(40_000, exact=False) == wanted.resolution_of(40_000) == 5_000
 
 
 def test_noisy_points_on_lines_show_no_more_than_as_many_vertices_do() -> None:
