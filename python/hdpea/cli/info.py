@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import json
+import re
 from dataclasses import asdict
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -73,7 +74,7 @@ def _describe(facts: CloudFacts, resources: Resources) -> str:
         "extent": " x ".join(f"{length:.6g}" for length in extent) + f", diagonal {facts.diagonal:.6g}",
         "spacing": _spacing(facts),
         "normals": _normals(facts),
-        "crs": facts.crs or "not told by the file",
+        "crs": crs_name(facts.crs),
         "a run needs": _needs(facts, resources),
     }
     return "\n".join([*(f"{name:<12}{value}" for name, value in rows.items() if value), *facts.notes])
@@ -87,6 +88,17 @@ def _classes(facts: CloudFacts) -> str:
     if facts.classes is None or len(facts.classes) > MOST_CLASSES:
         return ""
     return ", ".join(f"{number} ({points:,} points)" for number, points in facts.classes.items())
+
+
+def crs_name(crs: str | None) -> str:
+    """Return the name of a coordinate reference system in WKT, and its number if it ends with that; else all of it."""
+    if crs is None:
+        return "not told by the file"
+    name = re.match(r'\s*\w+\["([^"]+)"', crs)
+    if name is None:
+        return crs
+    number = re.search(r'(?:ID|AUTHORITY)\["EPSG",\s*"?(\d+)"?\]\s*\]\s*$', crs)
+    return name[1] if number is None else f"{name[1]} (EPSG:{number[1]})"
 
 
 def _triple(numbers: list[float]) -> str:

@@ -13,6 +13,7 @@ from helpers.clouds import sphere_points
 from helpers.files import WITH_NORMALS
 
 from hdpea.cli import run
+from hdpea.cli.info import crs_name
 
 Capture = pytest.CaptureFixture[str]
 
@@ -81,3 +82,18 @@ def test_info_of_a_single_point(tmp_path: Path, capsys: Capture) -> None:
     (tmp_path / "scan.xyz").write_text("1 2 3\n")
     assert run(["info", str(tmp_path / "scan.xyz")]) == 0
     assert "unknown" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("crs", "told"),
+    [
+        (None, "not told by the file"),
+        ("EPSG:25832", "EPSG:25832"),
+        ('PROJCRS["ETRS89 / UTM zone 32N",BASEGEOGCRS["ETRS89",ID["EPSG",4258]],ID["EPSG",25832]]', "25832)"),
+        ('PROJCS["ETRS89 / UTM zone 32N",UNIT["metre",1],AUTHORITY["EPSG","25832"]]', "25832)"),
+        ('LOCAL_CS["site grid",UNIT["metre",1,ID["EPSG",9001]]]', "site grid"),
+    ],
+)
+def test_a_reference_system_is_told_by_its_name(crs: str | None, told: str) -> None:
+    named = "ETRS89 / UTM zone 32N (EPSG:" if told == "25832)" else ""
+    assert crs_name(crs) == named + told
