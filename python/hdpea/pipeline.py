@@ -106,10 +106,13 @@ def _make(
     prepared = prepare_surface(cloud, options.normals, options.denoising, per_vertex, progress, clock)
     budgeted, noise_choices = within_noise(options, prepared, shown)
     # Under an error bound the collapses find out themselves what the points show.
+    denoised = prepared.surface is not prepared.oriented.surface
     exact = prepared.exact and not noise_choices and options.meshing.error is None
-    _, count_choices = particles_wanted(budgeted, len(cloud.points), shown, exact=exact)
+    _, count_choices = particles_wanted(budgeted, len(cloud.points), shown, exact=exact, denoised=denoised)
     surface, parts = prepared.surface, prepared.oriented.parts
-    mesh, mesh_choices = mesh_surface(surface, budgeted, shown, parts, progress, clock, embedder, exact=exact)
+    mesh, mesh_choices = mesh_surface(
+        surface, budgeted, shown, parts, progress, clock, embedder, exact=exact, denoised=denoised
+    )
     wanted = budgeted.vertices_of(shown) if options.meshing.error is None else len(mesh.vertices_in_unit)
     own = () if embedder is None else (Choice("embedding", "given", "", "an embedder was passed"),)
     choices = (*noise_choices, *count_choices, *own, *mesh_choices, *mesh.choices)

@@ -54,6 +54,7 @@ def assemble_mesh(
     points_shown: int | None = None,
     *,
     exact: bool = True,
+    denoised: bool = False,
 ) -> Mesh:
     """Spread particles on an embedded surface, join them, fit the mesh to the points, and simplify it to its budget.
 
@@ -73,6 +74,8 @@ def assemble_mesh(
         How many evenly spread points would show as much: what the numbers go by; default: those of the surface.
     exact
         Whether the points are free of noise, and their normals their own: then more particles show more.
+    denoised
+        Whether they were moved to where they are: then more particles tear less.
 
     Raises
     ------
@@ -84,7 +87,7 @@ def assemble_mesh(
     options, clock = options or Options(), clock or StageClock()
     points_shown = points_shown or len(surface.points_in_unit)
     counts = _Counts(
-        options.particles_of(len(surface.points_in_unit), points_shown, exact=exact),
+        options.particles_of(len(surface.points_in_unit), points_shown, exact=exact, denoised=denoised),
         options.vertices_of(points_shown),
         options.resolution_of(points_shown),
     )

@@ -47,7 +47,7 @@ class Budget:
 
 
 def particles_wanted(
-    options: Options, points: int, points_shown: int, *, exact: bool = True
+    options: Options, points: int, points_shown: int, *, exact: bool = True, denoised: bool = False
 ) -> tuple[int, tuple[Choice, ...]]:
     """Return how many particles to spread on so many points, and what was chosen for that.
 
@@ -57,6 +57,8 @@ def particles_wanted(
         As many evenly spread points would show as much: what the numbers go by.
     exact
         Whether the points are free of noise, and their normals their own.
+    denoised
+        Whether they were moved to where they are.
 
     Raises
     ------
@@ -71,7 +73,7 @@ def particles_wanted(
             f"{asked} {what} were asked for, but there are {points} distinct points on the surface.",
             f"Ask for at most half as many {what} as there are points.",
         )
-    particles = options.particles_of(points, points_shown, exact=exact)
+    particles = options.particles_of(points, points_shown, exact=exact, denoised=denoised)
     if given is not None:
         return particles, ()
     choices = list[Choice]()

@@ -34,6 +34,7 @@ def mesh_surface(
     embedder: Embedder | None = None,
     *,
     exact: bool = True,
+    denoised: bool = False,
 ) -> tuple[Mesh, tuple[Choice, ...]]:
     """Embed a surface and mesh it.
 
@@ -47,8 +48,8 @@ def mesh_surface(
         How many evenly spread points would show as much: what the numbers of vertices and particles go by.
     parts
         Rows of each, as ``hdpea.surface.dense_parts`` finds them.
-    exact
-        Whether the points are free of noise, and their normals their own.
+    exact, denoised
+        As for ``assemble_mesh``.
 
     Returns
     -------
@@ -65,7 +66,9 @@ def mesh_surface(
             embedded = embed_surface(part, resolution, budget.embedding, progress, embedder)
             per_vertex = len(part.points_in_unit) / resolution
             bases = tangent_bases(embedded.coordinates, part.normals, part.neighbors, per_vertex)
-        mesh = assemble_mesh(part, embedded.coordinates, bases, budget, progress, clock, shown, exact=exact)
+        mesh = assemble_mesh(
+            part, embedded.coordinates, bases, budget, progress, clock, shown, exact=exact, denoised=denoised
+        )
         return mesh, embedded.choices
 
     if not parts or options.meshing.error is not None:

@@ -12,7 +12,7 @@ POINTS_PER_PARTICLE = 3
 """Points per particle where the mesh is simplified: with fewer particles, what is thinner than they are apart tears."""
 
 POINTS_PER_ROUGH_PARTICLE = 4
-"""The same where points are noisy, or their normals had to be estimated."""
+"""The same where points were denoised."""
 
 ENOUGH_PARTICLES, ENOUGH_PER_VERTEX = 20_000, 2
 """Most particles, and most for each vertex wanted, whichever is larger, however many points there are."""
@@ -33,9 +33,9 @@ class ParticleOptions(Checked):
         None,
         "particles to spread; their mesh is simplified where fewer vertices are wanted; default: one for every "
         f"{POINTS_PER_PARTICLE} points, at most {ENOUGH_PARTICLES:,} or {ENOUGH_PER_VERTEX} for each vertex; one for "
-        f"every {POINTS_PER_ROUGH_PARTICLE} where points were denoised, or most normals estimated, and no more than a "
-        f"vertex for every {POINTS_PER_VERTEX} is wanted; one for every {POINTS_PER_VERTEX} with an error; as many as "
-        "vertices where that is hardly more",
+        f"every {POINTS_PER_ROUGH_PARTICLE} where points were denoised, and for every {POINTS_PER_VERTEX} where most "
+        "normals were estimated, or with an error or watertight, unless more vertices are wanted; as many as vertices "
+        "where that is hardly more",
         minimum=4,
     )
     iterations: int | None = option(

@@ -93,19 +93,28 @@ def test_particles_are_as_many_as_the_points_can_show(points: int, vertices: int
     assert wanted.particles_of(points) == particles
 
 
-@pytest.mark.parametrize(("vertices", "particles"), [(1_500, 10_000), (None, 10_000), (9_000, 13_333)])
-def test_what_is_not_exact_shows_less_and_tears_no_more(vertices: int | None, particles: int) -> None:
+@pytest.mark.parametrize(("vertices", "particles"), [(1_500, 5_000), (4_500, 4_500), (5_000, 5_000)])
+def test_what_is_not_exact_shows_no_more_than_as_many_vertices_do(vertices: int, particles: int) -> None:
     wanted = Options(meshing=MeshingOptions(vertices=vertices))
-    assert wanted.particles_of(40_000, exact=False) == particles
+    assert wanted.particles_of(40_000, exact=False) == wanted.resolution_of(40_000) == particles
 
 
-def test_an_error_bound_begins_with_as_many_as_vertices_show() -> None:
-    wanted = Options(meshing=MeshingOptions(error=Length(1, percent=True)))
-    assert wanted.particles_of(40_000, exact=False) == wanted.resolution_of(40_000) == 5_000
+@pytest.mark.parametrize(
+    ("meshing", "particles"),
+    [
+        (MeshingOptions(), 10_000),
+        (MeshingOptions(vertices=1_500), 10_000),
+        (MeshingOptions(vertices=9_000), 13_333),
+        (MeshingOptions(error=Length(1, percent=True)), 5_000),
+        (MeshingOptions(watertight=True), 5_000),
+    ],
+)
+def test_denoised_points_get_more_so_that_less_tears(meshing: MeshingOptions, particles: int) -> None:
+    assert Options(meshing=meshing).particles_of(40_000, exact=False, denoised=True) == particles
 
 
-def test_noisy_points_on_lines_show_no_more_than_as_many_vertices_do() -> None:
-    assert Options().particles_of(20_000, 40_000, exact=False) == Options().vertices_of(40_000) == 5_000
+def test_denoised_points_on_lines_show_no_more_than_as_many_vertices_do() -> None:
+    assert Options().particles_of(20_000, 40_000, exact=False, denoised=True) == Options().vertices_of(40_000) == 5_000
 
 
 def test_more_vertices_than_points_show_are_made_of_more_particles_all_the_same() -> None:
