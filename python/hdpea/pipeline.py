@@ -106,7 +106,7 @@ def _make(
     prepared = prepare_surface(cloud, options.normals, options.denoising, per_vertex, progress, clock)
     budgeted, noise_choices = within_noise(options, prepared, shown)
     # Under an error bound the collapses find out themselves what the points show.
-    denoised = prepared.surface is not prepared.oriented.surface
+    denoised = prepared.denoised
     exact = prepared.exact and not noise_choices and options.meshing.error is None
     _, count_choices = particles_wanted(budgeted, len(cloud.points), shown, exact=exact, denoised=denoised)
     surface, parts = prepared.surface, prepared.oriented.parts

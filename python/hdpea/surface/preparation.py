@@ -43,9 +43,14 @@ class Preparation:
     missed: tuple[str, ...] = ()
 
     @property
+    def denoised(self) -> bool:
+        """Whether the points were moved to where they are."""
+        return self.surface is not self.oriented.surface
+
+    @property
     def exact(self) -> bool:
         """Whether the points are as they were given, and so are most of their normals."""
-        return self.surface is self.oriented.surface and 2 * self.oriented.estimated < len(self.surface.normals)
+        return not self.denoised and 2 * self.oriented.estimated < len(self.surface.normals)
 
 
 def prepare_surface(
