@@ -95,7 +95,7 @@ PointLinks::~PointLinks() = default;
 
 double PointLinks::limit(Index p) const { return std::max(error_, distance_[p]) * kRounding; }
 
-double PointLinks::place_distance(const Eigen::Vector3d& at, double enough) const {
+double PointLinks::place_distance(const Eigen::Vector3d& at, const Eigen::Vector3d& facing, double enough) const {
   double least = kInfinity;
   for (const std::size_t count : {std::size_t{1}, kNearest}) {
     const std::size_t found = nearest_->search(at, count);
@@ -103,7 +103,8 @@ double PointLinks::place_distance(const Eigen::Vector3d& at, double enough) cons
       const Index p = nearest_->rows[i];
       const double height = disks_.normals.row(p).dot(at.transpose() - disks_.points.row(p));
       const double aside = std::sqrt(std::max(0.0, nearest_->squared[i] - height * height)) - disks_.radii[p];
-      least = std::min(least, std::hypot(height, std::max(aside, 0.0)));
+      const bool away = disks_.normals.row(p).dot(facing) < 0;
+      least = std::min(least, std::hypot(height, std::max(aside, 0.0)) + (away ? error_ : 0));
     }
     if (least <= enough) return least;
   }
@@ -112,10 +113,10 @@ double PointLinks::place_distance(const Eigen::Vector3d& at, double enough) cons
 
 double PointLinks::worst_place(const NewFace& face, double enough) const {
   const auto& [a, b, c] = face.corners;
-  const Eigen::Vector3d ab = b - a, ac = c - a;
+  const Eigen::Vector3d ab = b - a, ac = c - a, facing = ab.cross(ac);
   double worst = 0;
   const auto look_at = [&](const Eigen::Vector3d& at) {
-    worst = std::max(worst, place_distance(at, std::max(error_, worst)));
+    worst = std::max(worst, place_distance(at, facing, std::max(error_, worst)));
     return worst <= enough;
   };
   for (int i = 0; i < 3; ++i) {
@@ -127,7 +128,7 @@ double PointLinks::worst_place(const NewFace& face, double enough) const {
   }
   // An even sequence of places (Roberts 2018), folded from a square into the triangle.
   constexpr double plastic = 1.32471795724474602596;
-  const Index count = static_cast<Index>(std::min(kMostPlaces, ab.cross(ac).norm() / 2 / (step_ * step_))) + 1;
+  const Index count = static_cast<Index>(std::min(kMostPlaces, facing.norm() / 2 / (step_ * step_))) + 1;
   for (Index k = 1; k <= count; ++k) {
     double u = 0.5 + static_cast<double>(k) / plastic, v = 0.5 + static_cast<double>(k) / (plastic * plastic);
     u -= std::floor(u);

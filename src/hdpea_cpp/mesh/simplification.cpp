@@ -51,10 +51,27 @@ bool any(const std::vector<Index>& points) {
   return std::any_of(points.begin(), points.end(), [](Index p) { return p >= 0; });
 }
 
-/// Splits each face that a point is too far from, at that point: the face, or its edge where the point lies near that.
-/// The part of a new vertex has a place in R^d, and no extent.
-void split_beyond(EditableMesh& mesh, std::vector<SurfacePart>& parts, const std::vector<Index>& beyond,
-                  const PointsRef& points) {
+/// Whether a split of the edge ab at a point would leave half a face that the point's normal sees from behind.
+bool split_folds(const EditableMesh& mesh, Index a, Index b, const Eigen::Vector3d& point,
+                 const Eigen::Vector3d& normal) {
+  const auto faces_away = [&](Index f, Index replaced) {
+    Eigen::Vector3d at[3];
+    for (int i = 0; i < 3; ++i) {
+      const Index corner = mesh.corners(f)[i];
+      at[i] = corner == replaced ? point : mesh.position(corner);
+    }
+    return area_vector(at[0], at[1], at[2]).dot(normal) <= 0;
+  };
+  const auto& around = mesh.faces_around(a);
+  return std::any_of(around.begin(), around.end(),
+                     [&](Index f) { return mesh.has_corner(f, b) && (faces_away(f, a) || faces_away(f, b)); });
+}
+
+/// Splits each face that a point is too far from, at that point: the face, or its edge where the point lies near that;
+/// but none that this would fold. The part of a new vertex has a place in R^d, and no extent. False if none was split.
+bool split_beyond(EditableMesh& mesh, std::vector<SurfacePart>& parts, const std::vector<Index>& beyond,
+                  const PointsRef& points, const PointsRef& normals) {
+  bool split = false;
   for (Index f = 0; f < static_cast<Index>(beyond.size()); ++f) {
     if (beyond[f] < 0) continue;
     const Eigen::Vector3d point = points.row(beyond[f]);
@@ -67,7 +84,9 @@ void split_beyond(EditableMesh& mesh, std::vector<SurfacePart>& parts, const std
     if (!weights.allFinite()) continue;
     int least;
     if (weights.minCoeff(&least) < kNearEdge) {
-      mesh.split_edge(corners[(least + 1) % 3], corners[(least + 2) % 3], point);
+      const Index from = corners[(least + 1) % 3], to = corners[(least + 2) % 3];
+      if (split_folds(mesh, from, to, point, normals.row(beyond[f]))) continue;
+      mesh.split_edge(from, to, point);
     } else {
       mesh.split(f, point);
     }
@@ -76,7 +95,9 @@ void split_beyond(EditableMesh& mesh, std::vector<SurfacePart>& parts, const std
     weights = weights.cwiseMax(0) / weights.cwiseMax(0).sum();
     for (int i = 0; i < 3; ++i) part.centroid += weights[i] * parts[corners[i]].centroid;
     parts.push_back(part);
+    split = true;
   }
+  return split;
 }
 
 }  // namespace
@@ -130,7 +151,7 @@ SimplifiedMesh simplify_within(const PointsRef& vertices, const CoordinatesRef& 
       return arrays_of(mesh, parts);
     }
     for (int splits = 0; any(beyond) && splits < kSplits; ++splits) {
-      split_beyond(mesh, parts, beyond, points);
+      if (!split_beyond(mesh, parts, beyond, points, normals)) break;
       beyond = PointLinks(mesh, disks, error).farthest_beyond(mesh);
     }
     made = arrays_of(mesh, parts);

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <cmath>
 #include <limits>
 
 #include "hdpea_cpp/base/errors.hpp"
@@ -147,6 +148,26 @@ TEST(Simplification, SplitsFacesUntilTheErrorIsKept) {
                                                fine.vertices.rowwise().normalized(), radii, 0.05, {});
   EXPECT_GT(small.faces.rows(), coarse.faces.rows());
   EXPECT_LT(closest_surface_points(small.vertices, small.faces, fine.vertices).distance.maxCoeff(), 0.05 * 1.001);
+}
+
+TEST(Simplification, FoldsNothingWithinAnErrorThatIsWiderThanTheNoise) {
+  auto hills = shapes::grid(100, 100);
+  Points normals(hills.vertices.rows(), 3);
+  for (Index v = 0; v < hills.vertices.rows(); ++v) {
+    const double x = 9 * hills.vertices(v, 0), y = 9 * hills.vertices(v, 1), noise = std::fmod(0.618034 * v, 1.0) - 0.5;
+    hills.vertices(v, 2) = 0.03 * (std::sin(x) + std::cos(y)) + 0.01 * noise;
+    normals.row(v) = Eigen::RowVector3d(-0.27 * std::cos(x), 0.27 * std::sin(y), 1).normalized();
+  }
+  const Eigen::VectorXd radii = Eigen::VectorXd::Constant(hills.vertices.rows(), 0.02);
+  for (const double error : {0.005, 0.007, 0.01}) {
+    const SimplifiedMesh small =
+        simplify_within(hills.vertices, hills.vertices, hills.faces, hills.vertices, normals, radii, error, {});
+    for (Index f = 0; f < small.faces.rows(); ++f) {
+      const Eigen::RowVector3d a = small.vertices.row(small.faces(f, 0));
+      const Eigen::RowVector3d ab = small.vertices.row(small.faces(f, 1)) - a;
+      EXPECT_GT(ab.cross(small.vertices.row(small.faces(f, 2)) - a).z(), 0) << "face " << f << " at " << error;
+    }
+  }
 }
 
 TEST(Simplification, CanBeCancelledHalfway) {
