@@ -22,6 +22,7 @@ from hdpea.mesh.sides import FacedMesh, facing_out
 from hdpea.mesh.texture import texture_of
 from hdpea.options import Options
 from hdpea.options.choice import Choice
+from hdpea.options.points_shown import PointsShown
 from hdpea.reading.attributes import split_colors
 from hdpea.reading.cloud import PointCloud
 from hdpea.report.achieved_error import achieved_error
@@ -101,19 +102,16 @@ def _make(
         # Nothing that is returned of the mesh is in the order of the points.
         cloud = found.in_order_of_space()
         tell(progress, "cleaning", 1)
-    shown = found.points_shown
-    per_vertex = len(cloud.points) / options.resolution_of(shown)
+    per_vertex = len(cloud.points) / options.resolution_of(found.points_shown)
     prepared = prepare_surface(cloud, options.normals, options.denoising, per_vertex, progress, clock)
-    budgeted, noise_choices = within_noise(options, prepared, shown)
+    budgeted, noise_choices = within_noise(options, prepared, found.points_shown)
     # Under an error bound the collapses find out themselves what the points show.
-    denoised = prepared.denoised
     exact = prepared.exact and not noise_choices and options.meshing.error is None
-    _, count_choices = particles_wanted(budgeted, len(cloud.points), shown, exact=exact, denoised=denoised)
+    shown = PointsShown(found.points_shown, exact, prepared.denoised)
+    _, count_choices = particles_wanted(budgeted, len(cloud.points), shown)
     surface, parts = prepared.surface, prepared.oriented.parts
-    mesh, mesh_choices = mesh_surface(
-        surface, budgeted, shown, parts, progress, clock, embedder, exact=exact, denoised=denoised
-    )
-    wanted = budgeted.vertices_of(shown) if options.meshing.error is None else len(mesh.vertices_in_unit)
+    mesh, mesh_choices = mesh_surface(surface, budgeted, shown, parts, progress, clock, embedder)
+    wanted = budgeted.vertices_of(shown.count) if options.meshing.error is None else len(mesh.vertices_in_unit)
     own = () if embedder is None else (Choice("embedding", "given", "", "an embedder was passed"),)
     choices = (*noise_choices, *count_choices, *own, *mesh_choices, *mesh.choices)
     return _Made(found, cloud, prepared, mesh, wanted, choices)

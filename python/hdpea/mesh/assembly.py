@@ -19,6 +19,7 @@ from hdpea.mesh.repair import repair_mesh
 from hdpea.options import MeshingOptions, Options, ParticleOptions
 from hdpea.options.choice import Choice
 from hdpea.options.particles import ITERATIONS, ITERATIONS_OF_MANY
+from hdpea.options.points_shown import PointsShown
 from hdpea.runtime.clock import StageClock
 from hdpea.runtime.progress import ProgressCallback, of_phase, tell
 from hdpea.surface.surface import Surface
@@ -51,10 +52,7 @@ def assemble_mesh(
     options: Options | None = None,
     progress: ProgressCallback | None = None,
     clock: StageClock | None = None,
-    points_shown: int | None = None,
-    *,
-    exact: bool = True,
-    denoised: bool = False,
+    shown: PointsShown | None = None,
 ) -> Mesh:
     """Spread particles on an embedded surface, join them, fit the mesh to the points, and simplify it to its budget.
 
@@ -70,12 +68,8 @@ def assemble_mesh(
         Hears of the phases particles, meshing, refinement, simplification, remeshing and repair.
     clock
         Measures them as stages.
-    points_shown
-        How many evenly spread points would show as much: what the numbers go by; default: those of the surface.
-    exact
-        Whether the points are free of noise, and their normals their own: then more particles show more.
-    denoised
-        Whether they were moved to where they are: then more particles tear less.
+    shown
+        What the points can show, which the numbers go by; default: as much as so many that are exact.
 
     Raises
     ------
@@ -85,14 +79,14 @@ def assemble_mesh(
         If `progress` cancels.
     """
     options, clock = options or Options(), clock or StageClock()
-    points_shown = points_shown or len(surface.points_in_unit)
+    shown = shown or PointsShown(len(surface.points_in_unit))
     counts = _Counts(
-        options.particles_of(len(surface.points_in_unit), points_shown, exact=exact, denoised=denoised),
-        options.vertices_of(points_shown),
-        options.resolution_of(points_shown),
+        options.particles_of(len(surface.points_in_unit), shown),
+        options.vertices_of(shown.count),
+        options.resolution_of(shown.count),
     )
-    mesh = _mesh_of_particles(surface, coordinates, bases, options, counts, progress, clock, exact=exact)
-    reaches = exact and counts.many and options.refinement.refine
+    mesh = _mesh_of_particles(surface, coordinates, bases, options, counts, progress, clock, exact=shown.exact)
+    reaches = shown.exact and counts.many and options.refinement.refine
     with clock.stage("refinement"):
         every_point = FitTarget(surface, coordinates, bases, find_creases(surface), options.refinement, progress)
         target = every_point.of_kept_pieces(mesh, counts.vertices)
@@ -103,7 +97,7 @@ def assemble_mesh(
         mesh = _within_budget(mesh, target, counts.wanted(options.meshing), clock, reaches=reaches)
         with clock.stage("repair"):
             tell(progress, "repair", 0)
-            mesh = repair_mesh(mesh, target.surface.points_in_unit, exact=exact)
+            mesh = repair_mesh(mesh, target.surface.points_in_unit, exact=shown.exact)
     else:
         bound = ErrorBound(target.surface, surface.frame.length_to_unit(options.meshing.error))
         mesh = _within_error(mesh, target, bound, options.meshing, clock)

@@ -10,6 +10,7 @@ from hdpea.mesh.extraction import Mesh
 from hdpea.options import MeshingOptions, Options
 from hdpea.options.choice import Choice
 from hdpea.options.meshing import POINTS_PER_VERTEX
+from hdpea.options.points_shown import PointsShown
 
 TOLERANCE = 0.01
 """Relative difference from the number asked for that is tolerated; one vertex, or face, always is."""
@@ -46,26 +47,15 @@ class Budget:
         return len(mesh.faces if self.counts_faces else mesh.vertices_in_unit)
 
 
-def particles_wanted(
-    options: Options, points: int, points_shown: int, *, exact: bool = True, denoised: bool = False
-) -> tuple[int, tuple[Choice, ...]]:
+def particles_wanted(options: Options, points: int, shown: PointsShown) -> tuple[int, tuple[Choice, ...]]:
     """Return how many particles to spread on so many points, and what was chosen for that.
-
-    Parameters
-    ----------
-    points_shown
-        As many evenly spread points would show as much: what the numbers go by.
-    exact
-        Whether the points are free of noise, and their normals their own.
-    denoised
-        Whether they were moved to where they are.
 
     Raises
     ------
     UsageError
         If there are fewer points than that.
     """
-    vertices, given = options.vertices_of(points_shown), options.particles.particles
+    vertices, given = options.vertices_of(shown.count), options.particles.particles
     asked = vertices if given is None else given
     if asked > points:
         what = "vertices" if asked == vertices else "particles"
@@ -73,7 +63,7 @@ def particles_wanted(
             f"{asked} {what} were asked for, but there are {points} distinct points on the surface.",
             f"Ask for at most half as many {what} as there are points.",
         )
-    particles = options.particles_of(points, points_shown, exact=exact, denoised=denoised)
+    particles = options.particles_of(points, shown)
     if given is not None:
         return particles, ()
     choices = list[Choice]()
@@ -81,6 +71,6 @@ def particles_wanted(
         choices.append(Choice("vertices", vertices, "", f"one for every {POINTS_PER_VERTEX} points"))
     why = "as many as vertices: the points can hardly show more"
     if particles > vertices or options.meshing.error is not None:
-        why = f"spread on {points_shown:,} points; the mesh is simplified from these"
+        why = f"spread on {shown.count:,} points; the mesh is simplified from these"
     choices.append(Choice("particles", particles, "", why))
     return particles, tuple(choices)

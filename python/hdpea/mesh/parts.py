@@ -16,6 +16,7 @@ from hdpea.mesh.assembly import assemble_mesh
 from hdpea.mesh.extraction import Mesh
 from hdpea.options import Length, Options
 from hdpea.options.choice import Choice
+from hdpea.options.points_shown import PointsShown
 from hdpea.runtime.clock import StageClock
 from hdpea.runtime.progress import ProgressCallback
 from hdpea.surface.surface import Surface
@@ -27,14 +28,11 @@ FEWEST = 12
 def mesh_surface(
     surface: Surface,
     options: Options,
-    points_shown: int,
+    shown: PointsShown,
     parts: tuple[NDArray[np.int64], ...] = (),
     progress: ProgressCallback | None = None,
     clock: StageClock | None = None,
     embedder: Embedder | None = None,
-    *,
-    exact: bool = True,
-    denoised: bool = False,
 ) -> tuple[Mesh, tuple[Choice, ...]]:
     """Embed a surface and mesh it.
 
@@ -44,12 +42,10 @@ def mesh_surface(
 
     Parameters
     ----------
-    points_shown
-        How many evenly spread points would show as much: what the numbers of vertices and particles go by.
+    shown
+        What the points can show: what the numbers of vertices and particles go by.
     parts
         Rows of each, as ``hdpea.surface.dense_parts`` finds them.
-    exact, denoised
-        As for ``assemble_mesh``.
 
     Returns
     -------
@@ -60,25 +56,23 @@ def mesh_surface(
     """
     clock = clock or StageClock()
 
-    def made_of(part: Surface, budget: Options, shown: int) -> tuple[Mesh, tuple[Choice, ...]]:
-        resolution = budget.resolution_of(shown)
+    def made_of(part: Surface, budget: Options, shown: PointsShown) -> tuple[Mesh, tuple[Choice, ...]]:
+        resolution = budget.resolution_of(shown.count)
         with clock.stage("embedding"):
             embedded = embed_surface(part, resolution, budget.embedding, progress, embedder)
             per_vertex = len(part.points_in_unit) / resolution
             bases = tangent_bases(embedded.coordinates, part.normals, part.neighbors, per_vertex)
-        mesh = assemble_mesh(
-            part, embedded.coordinates, bases, budget, progress, clock, shown, exact=exact, denoised=denoised
-        )
+        mesh = assemble_mesh(part, embedded.coordinates, bases, budget, progress, clock, shown)
         return mesh, embedded.choices
 
     if not parts or options.meshing.error is not None:
-        return made_of(surface, options, points_shown)
+        return made_of(surface, options, shown)
     rest = np.setdiff1d(np.arange(len(surface.points_in_unit)), np.concatenate(parts))
     made = list[tuple[Mesh, UnitFrame, tuple[Choice, ...]]]()
     for rows in (rest, *parts):
         part, share = _part_of(surface, rows), len(rows) / len(surface.points_in_unit)
         budget = _budget_of(options, share, surface.frame.diagonal)
-        mesh, choices = made_of(part, budget, round(points_shown * share))
+        mesh, choices = made_of(part, budget, shown.of_share(share))
         made.append((mesh, part.frame, choices))
     why = "sampled far more densely than the scene that they lie in: each is meshed by itself"
     joined = _joined([mesh for mesh, _, _ in made], [frame for _, frame, _ in made], surface.frame)

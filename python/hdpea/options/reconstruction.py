@@ -20,6 +20,7 @@ from hdpea.options.particles import (
     WORTH_SIMPLIFYING,
     ParticleOptions,
 )
+from hdpea.options.points_shown import PointsShown
 from hdpea.options.refinement import RefinementOptions
 
 TEXTURE_SIZES = {"minimum": 64, "maximum": 16384}
@@ -67,30 +68,30 @@ class Options(Checked):
         """
         return self._enough(points // POINTS_PER_VERTEX, points)
 
-    def particles_of(self, points: int, shown: int | None = None, *, exact: bool = True, denoised: bool = False) -> int:
+    def particles_of(self, points: int, shown: PointsShown | None = None) -> int:
         """Return how many particles to spread on so many points: at least one for each vertex.
 
         A mesh is not made of as few particles as it is to have vertices, which cannot show parts thinner than they are
-        apart: it is simplified from a mesh of more. Points that are not `exact`, since they are noisy or their normals
+        apart: it is simplified from a mesh of more. Points that are not exact, since they are noisy or their normals
         had to be estimated from many of them, show no more than as many vertices do. Where more vertices than that are
         wanted, more particles are better all the same: of 4,000 points of each of ten training meshes without normals,
         1,000 vertices have a median exact CD of 0.31 instead of 0.42, and 666 one of 0.57 instead of 1.75. And so they
-        are where the points were `denoised`: of depth frames of 25 held-out meshes 23 come nearer to the truth.
+        are where the points were denoised: of depth frames of 25 held-out meshes 23 come nearer to the truth.
 
         Parameters
         ----------
         shown
-            How many evenly spread points would show as much; default: as many.
+            What they can show; default: as much as so many that are exact.
         """
-        shown = points if shown is None else shown
-        if exact or shown // POINTS_PER_VERTEX < self.meshing.vertices_of(shown):
-            enough = shown // POINTS_PER_PARTICLE
-        elif denoised and self.meshing.error is None and not self.meshing.watertight:
+        shown = shown or PointsShown(points)
+        if shown.exact or shown.count // POINTS_PER_VERTEX < self.meshing.vertices_of(shown.count):
+            enough = shown.count // POINTS_PER_PARTICLE
+        elif shown.denoised and self.meshing.error is None and not self.meshing.watertight:
             # Points on scan lines show more along these than across them, where noise leaves nothing between two.
-            enough = min(points, shown) // POINTS_PER_ROUGH_PARTICLE
+            enough = min(points, shown.count) // POINTS_PER_ROUGH_PARTICLE
         else:
-            enough = shown // POINTS_PER_VERTEX
-        return min(self._enough(enough, shown), points)
+            enough = shown.count // POINTS_PER_VERTEX
+        return min(self._enough(enough, shown.count), points)
 
     def _enough(self, enough: int, shown: int) -> int:
         """Return so many, within limits, if that is clearly more than the vertices wanted of so many points."""

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 from hdpea import _core
 from hdpea.errors import CannotReconstruct
 from hdpea.geometry.linked import first_linked
+from hdpea.options.points_shown import PointsShown
 from hdpea.tiling.work import Work
 
 Piece = tuple[int, int]
@@ -38,7 +39,7 @@ def agree(work: Work) -> None:
         "spacing": float(np.sqrt(sum(each["area"] for each in facts) / resolution)),
         "resolution": resolution,
         "vertices": work.options.vertices_of(shown),
-        "particles": work.options.particles_of(points, shown, exact=exact),
+        "particles": work.options.particles_of(points, PointsShown(shown, exact=exact)),
         "per_vertex": points / resolution,
         "points": points,
         "computed_sides": any(each["computed_sides"] for each in facts),

@@ -8,6 +8,7 @@ import pytest
 from hdpea.errors import UsageError
 from hdpea.mesh.budget import particles_wanted
 from hdpea.options import MeshingOptions, Options, ParticleOptions
+from hdpea.options.points_shown import PointsShown
 
 KEPT, SHOWN = 1000, 2000
 """As on scan lines, of whose points half are left out."""
@@ -24,13 +25,13 @@ KEPT, SHOWN = 1000, 2000
 )
 def test_more_than_the_points_that_are_left_are_refused(options: Options, what: str) -> None:
     with pytest.raises(UsageError, match=f"{what} were asked for, but there are {KEPT} distinct points"):
-        particles_wanted(options, KEPT, SHOWN)
+        particles_wanted(options, KEPT, PointsShown(SHOWN))
 
 
 def test_as_many_as_are_left_are_not() -> None:
-    assert particles_wanted(Options(meshing=MeshingOptions(vertices=KEPT)), KEPT, SHOWN)[0] == KEPT
+    assert particles_wanted(Options(meshing=MeshingOptions(vertices=KEPT)), KEPT, PointsShown(SHOWN))[0] == KEPT
 
 
 def test_unasked_the_number_follows_what_the_points_show() -> None:
-    assert particles_wanted(Options(), KEPT, SHOWN)[0] == SHOWN // 3
-    assert particles_wanted(Options(), SHOWN // 5, SHOWN)[0] == SHOWN // 5
+    assert particles_wanted(Options(), KEPT, PointsShown(SHOWN))[0] == SHOWN // 3
+    assert particles_wanted(Options(), SHOWN // 5, PointsShown(SHOWN))[0] == SHOWN // 5

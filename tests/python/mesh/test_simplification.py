@@ -12,6 +12,9 @@ from hdpea import Reconstruction, _core, reconstruct
 from hdpea.errors import Interrupted, UsageError
 from hdpea.options import MeshingOptions, Options, ParticleOptions
 from hdpea.options.lengths import Length
+from hdpea.options.points_shown import PointsShown
+
+DENOISED = PointsShown(40_000, exact=False, denoised=True)
 
 
 def thin_ring(count: int) -> clouds.Cloud:
@@ -96,7 +99,7 @@ def test_particles_are_as_many_as_the_points_can_show(points: int, vertices: int
 @pytest.mark.parametrize(("vertices", "particles"), [(1_500, 5_000), (4_500, 4_500), (5_000, 5_000)])
 def test_what_is_not_exact_shows_no_more_than_as_many_vertices_do(vertices: int, particles: int) -> None:
     wanted = Options(meshing=MeshingOptions(vertices=vertices))
-    assert wanted.particles_of(40_000, exact=False) == wanted.resolution_of(40_000) == particles
+    assert wanted.particles_of(40_000, PointsShown(40_000, exact=False)) == wanted.resolution_of(40_000) == particles
 
 
 @pytest.mark.parametrize(
@@ -110,15 +113,15 @@ def test_what_is_not_exact_shows_no_more_than_as_many_vertices_do(vertices: int,
     ],
 )
 def test_denoised_points_get_more_so_that_less_tears(meshing: MeshingOptions, particles: int) -> None:
-    assert Options(meshing=meshing).particles_of(40_000, exact=False, denoised=True) == particles
+    assert Options(meshing=meshing).particles_of(40_000, DENOISED) == particles
 
 
 def test_denoised_points_on_lines_show_no_more_than_as_many_vertices_do() -> None:
-    assert Options().particles_of(20_000, 40_000, exact=False, denoised=True) == Options().vertices_of(40_000) == 5_000
+    assert Options().particles_of(20_000, DENOISED) == Options().vertices_of(40_000) == 5_000
 
 
 def test_more_vertices_than_points_show_are_made_of_more_particles_all_the_same() -> None:
-    assert Options(meshing=MeshingOptions(vertices=1_000)).particles_of(4_000, exact=False) == 1_333
+    assert Options(meshing=MeshingOptions(vertices=1_000)).particles_of(4_000, PointsShown(4_000, exact=False)) == 1_333
 
 
 def test_particles_that_are_given_are_taken() -> None:
