@@ -58,6 +58,17 @@ class Mesh:
     patches: NDArray[np.float64] = field(default_factory=lambda: np.empty((0, 3, 3)))
     self_intersections: int | None = None
 
+    def of_faces(self, faces: NDArray[np.int64]) -> Mesh:
+        """Return the mesh of these faces (f, 3) only, with the vertices that they use."""
+        used, corners = np.unique(faces, return_inverse=True)
+        return replace(
+            self,
+            vertices_in_unit=self.vertices_in_unit[used],
+            faces=corners.reshape(-1, 3),
+            coordinates=self.coordinates[used],
+            self_intersections=None,
+        )
+
 
 def mask_of(vertices: NDArray[np.bool_] | None) -> NDArray[np.bool_]:
     """Return a mask of vertices (v,) as the core takes it: empty if there is none."""

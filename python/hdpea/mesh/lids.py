@@ -90,21 +90,11 @@ def _labels_of_patches(opposite: NDArray[np.int64], first: int) -> NDArray[np.in
 def _without(mesh: Mesh, dropped: NDArray[np.bool_], holes: int) -> Mesh:
     """Return a mesh without those faces of its patches (k,) that are `dropped`, which closed so many holes."""
     first = len(mesh.faces) - len(mesh.patches)
-    faces = np.vstack([mesh.faces[:first], mesh.faces[first:][~dropped]])
-    used = np.zeros(len(mesh.vertices_in_unit), dtype=bool)
-    used[faces] = True
-    numbers = np.cumsum(used) - 1
-    vertices, faces = mesh.vertices_in_unit[used], numbers[faces]
+    opened = mesh.of_faces(np.vstack([mesh.faces[:first], mesh.faces[first:][~dropped]]))
+    vertices, faces = opened.vertices_in_unit, opened.faces
     statistics = dict(mesh.statistics)
     statistics["holes_filled"] -= holes
     statistics["holes_left"] += holes
     statistics["faces_joined"] = len(faces)
     statistics["area_filled"] = mesh_area(vertices, faces[first:]) / mesh_area(vertices, faces)
-    return replace(
-        mesh,
-        vertices_in_unit=vertices,
-        faces=faces,
-        coordinates=mesh.coordinates[used],
-        statistics=statistics,
-        patches=mesh.patches[~dropped],
-    )
+    return replace(opened, statistics=statistics, patches=mesh.patches[~dropped])

@@ -79,14 +79,7 @@ def _without_islands(repaired: Mesh, mesh: Mesh) -> Mesh:
     same = _core.nearest_neighbors(mesh.vertices_in_unit, repaired.vertices_in_unit[corners], 1)[:, 0]
     kept = np.ones(len(sizes), dtype=bool)
     kept[small] = before[same] < ISLAND
-    used, faces = np.unique(repaired.faces[kept], return_inverse=True)
-    return replace(
-        repaired,
-        vertices_in_unit=repaired.vertices_in_unit[used],
-        faces=faces.reshape(-1, 3),
-        coordinates=repaired.coordinates[used],
-        self_intersections=None,
-    )
+    return repaired.of_faces(repaired.faces[kept])
 
 
 def _piece_sizes(mesh: Mesh) -> NDArray[np.int64]:

@@ -52,9 +52,8 @@ def _part_of_mesh(work: Work, tile: int, beyond: float) -> Mesh:
     """Return the faces of the finished mesh whose middles lie in a tile, or so far beyond it."""
     whole = work.folder.load("mesh")
     vertices, faces = whole["vertices"], whole["faces"]
-    faces = faces[work.plan.inside(tile, vertices[faces].mean(axis=1), beyond)]
-    used, numbers = np.unique(faces, return_inverse=True)
-    return Mesh(vertices[used], numbers.reshape(-1, 3), vertices[used], patches=whole["patches"])
+    near = work.plan.inside(tile, vertices[faces].mean(axis=1), beyond)
+    return Mesh(vertices, faces, vertices, patches=whole["patches"]).of_faces(faces[near])
 
 
 def measured(work: Work) -> tuple[Distances, Agreement, AchievedError, HeightDifferences | None]:
