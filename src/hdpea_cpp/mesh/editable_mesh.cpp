@@ -120,6 +120,14 @@ std::vector<Index> EditableMesh::left() const {
   return numbers;
 }
 
+std::vector<Index> EditableMesh::faces_in_order() const {
+  std::vector<Index> numbers;
+  for (Index f = 0; f < face_numbers(); ++f) {
+    if (has_face(f)) numbers.push_back(f);
+  }
+  return numbers;
+}
+
 TriangleMesh EditableMesh::mesh() const {
   const std::vector<Index> numbers = left();
   std::vector<Index> row_of(positions_.size(), -1);

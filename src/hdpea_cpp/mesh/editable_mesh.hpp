@@ -51,6 +51,8 @@ class EditableMesh {
 
   /// The numbers of the vertices that are left, ascending: the rows of `mesh`.
   std::vector<Index> left() const;
+  /// The same of the faces.
+  std::vector<Index> faces_in_order() const;
   TriangleMesh mesh() const;
 
  private:

@@ -20,6 +20,9 @@ constexpr double kRounding = 1 + 1e-9;
 /// Of so many nearest points, one must have its disk within the error. Beside a crease most lie on the other side.
 constexpr std::size_t kNearest = 24;
 
+/// How far places are apart on faces, in disks or errors, and on edges, where a mesh cuts corners.
+constexpr double kStep = 0.4, kStepOfEdges = 0.2;
+
 /// Of a face, or of its edge, that are tried at most, however near the points are to one another.
 constexpr double kMostPlaces = 2'000;
 
@@ -76,11 +79,8 @@ PointLinks::PointLinks(const EditableMesh& mesh, const DisksRef& disks, double e
   // The median disk holds a dozen points.
   Eigen::VectorXd radii = disks.radii;
   std::nth_element(radii.begin(), radii.begin() + radii.size() / 2, radii.end());
-  step_ = std::max(radii[radii.size() / 2], error_) / 5;
-  std::vector<Index> numbers;
-  for (Index f = 0; f < mesh.face_numbers(); ++f) {
-    if (mesh.has_face(f)) numbers.push_back(f);
-  }
+  scale_ = std::max(radii[radii.size() / 2], error_);
+  const std::vector<Index> numbers = mesh.faces_in_order();
   const TriangleMesh arrays = mesh.mesh();
   const SurfacePoints feet = closest_surface_points(arrays.vertices, arrays.faces, disks_.points);
   distance_.assign(feet.distance.begin(), feet.distance.end());
@@ -120,15 +120,17 @@ double PointLinks::worst_place(const NewFace& face, double enough) const {
     return worst <= enough;
   };
   for (int i = 0; i < 3; ++i) {
+    if (face.moved >= 0 && i == (face.moved + 1) % 3) continue;  // the edge that stays
     const Eigen::Vector3d from = face.corners[i], along = face.corners[(i + 1) % 3] - from;
-    const int pieces = static_cast<int>(std::min(kMostPlaces, std::ceil(along.norm() / step_)));
+    const int pieces = static_cast<int>(std::min(kMostPlaces, std::ceil(along.norm() / (kStepOfEdges * scale_))));
     for (int k = 0; k < pieces; ++k) {
       if (!look_at(from + along * k / pieces)) return worst;
     }
   }
   // An even sequence of places (Roberts 2018), folded from a square into the triangle.
   constexpr double plastic = 1.32471795724474602596;
-  const Index count = static_cast<Index>(std::min(kMostPlaces, facing.norm() / 2 / (step_ * step_))) + 1;
+  const double step = kStep * scale_;
+  const Index count = static_cast<Index>(std::min(kMostPlaces, facing.norm() / 2 / (step * step))) + 1;
   for (Index k = 1; k <= count; ++k) {
     double u = 0.5 + static_cast<double>(k) / plastic, v = 0.5 + static_cast<double>(k) / (plastic * plastic);
     u -= std::floor(u);
@@ -143,17 +145,19 @@ double PointLinks::worst_place(const NewFace& face, double enough) const {
 }
 
 bool PointLinks::allows(const std::vector<Index>& old, const std::vector<NewFace>& faces) const {
-  const std::vector<MeasuredTriangle> triangles = triangles_of(faces);
+  std::vector<MeasuredTriangle> triangles = triangles_of(faces);
   double allowed = error_;
   for (Index f : old) {
     allowed = std::max(allowed, worst_[f]);
     for (Index p : points_of_[f]) {
       const double squared = limit(p) * limit(p);
       const Eigen::Vector3d point = disks_.points.row(p);
-      const bool near = std::any_of(triangles.begin(), triangles.end(), [&](const MeasuredTriangle& triangle) {
+      const auto near = std::find_if(triangles.begin(), triangles.end(), [&](const MeasuredTriangle& triangle) {
         return triangle.squared_distance(point, squared) < squared;
       });
-      if (!near) return false;
+      if (near == triangles.end()) return false;
+      // The next point is likely to lie on the same one.
+      std::swap(*near, triangles.front());
     }
   }
   return std::all_of(faces.begin(), faces.end(),
@@ -164,23 +168,28 @@ std::optional<Eigen::Vector3d> PointLinks::correction(const std::vector<Index>& 
                                                       const std::vector<NewFace>& faces) const {
   const std::vector<MeasuredTriangle> triangles = triangles_of(faces);
   std::size_t points = 0, beyond = 0;
+  for (Index f : old) points += points_of_[f].size();
   double worst = 0;
   Eigen::Vector3d shift = Eigen::Vector3d::Zero();
+  std::size_t last = 0;
   for (Index f : old) {
-    points += points_of_[f].size();
     for (Index p : points_of_[f]) {
       const Eigen::Vector3d point = disks_.points.row(p);
-      double least = kInfinity;
-      std::size_t nearest = 0;
-      for (std::size_t i = 0; i < triangles.size() && least > error_ * error_; ++i) {
+      const double within = limit(p) * limit(p);
+      // The next point is likely to lie on the same one.
+      double least = triangles[last].squared_distance(point, within);
+      if (least <= within) continue;
+      std::size_t nearest = last;
+      for (std::size_t i = 0; i < triangles.size() && least > within; ++i) {
         const double squared = triangles[i].squared_distance(point, least);
         if (squared >= least) continue;
         least = squared;
         nearest = i;
       }
+      last = nearest;
+      if (least <= within) continue;
+      if (static_cast<double>(++beyond) > kFewPoints * static_cast<double>(points)) return std::nullopt;
       const double distance = std::sqrt(least), excess = distance - limit(p);
-      if (excess <= 0) continue;
-      ++beyond;
       if (excess <= worst) continue;
       worst = excess;
       const Eigen::Vector3d weights = triangles[nearest].weights(point);
@@ -191,8 +200,7 @@ std::optional<Eigen::Vector3d> PointLinks::correction(const std::vector<Index>& 
       shift = (1 - kRoom * limit(p) / distance) / weight * (point - foot);
     }
   }
-  const bool few = static_cast<double>(beyond) <= kFewPoints * static_cast<double>(points);
-  return beyond > 0 && few ? std::optional(shift) : std::nullopt;
+  return beyond > 0 ? std::optional(shift) : std::nullopt;
 }
 
 void PointLinks::replace(const std::vector<Index>& old, const std::vector<NewFace>& faces) {
@@ -224,19 +232,6 @@ void PointLinks::replace(const std::vector<Index>& old, const std::vector<NewFac
     distance_[p] = std::sqrt(least);
     points_of_[nearest].push_back(p);
   }
-}
-
-std::vector<Index> PointLinks::farthest_beyond(const EditableMesh& mesh) const {
-  std::vector<Index> farthest(static_cast<std::size_t>(mesh.face_numbers()), -1);
-  for (Index f = 0; f < mesh.face_numbers(); ++f) {
-    double most = error_;
-    for (Index p : points_of_[f]) {
-      if (distance_[p] <= most) continue;
-      most = distance_[p];
-      farthest[f] = p;
-    }
-  }
-  return farthest;
 }
 
 }  // namespace hdpea

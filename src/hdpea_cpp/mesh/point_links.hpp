@@ -44,9 +44,6 @@ class PointLinks {
   /// Links the points of the faces `old` to these, which have taken their place.
   void replace(const std::vector<Index>& old, const std::vector<NewFace>& faces);
 
-  /// Of each face number: its point farthest beyond the error, and -1 if there is none.
-  std::vector<Index> farthest_beyond(const EditableMesh& mesh) const;
-
  private:
   struct Nearest;
   double limit(Index p) const;
@@ -54,7 +51,7 @@ class PointLinks {
   double worst_place(const NewFace& face, double enough) const;
 
   DisksRef disks_;
-  double error_, step_;
+  double error_, scale_;
   std::unique_ptr<Nearest> nearest_;
   std::vector<std::vector<Index>> points_of_;  ///< of each face
   std::vector<double> distance_;               ///< of each point from its face

@@ -2,6 +2,7 @@
 #include "hdpea_cpp/mesh/simplification.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 #include <vector>
 
@@ -10,6 +11,7 @@
 #include "hdpea_cpp/base/errors.hpp"
 #include "hdpea_cpp/mesh/edge_collapses.hpp"
 #include "hdpea_cpp/mesh/mesh_check.hpp"
+#include "hdpea_cpp/mesh/surface_distance.hpp"
 
 namespace hdpea {
 namespace {
@@ -21,6 +23,8 @@ constexpr Index kCollapsesPerReport = 100;
 constexpr int kRounds = 4, kSplits = 5;
 /// A point with less than this of the weight of a corner splits the edge across from it.
 constexpr double kNearEdge = 0.15;
+/// What was to stay within the error may come out a little farther.
+constexpr double kRounding = 1 + 1e-9;
 
 Index excess(const EditableMesh& mesh, const MeshBudget& budget) {
   return std::max(mesh.vertices_left() - budget.vertices, mesh.faces_left() - budget.faces);
@@ -47,24 +51,42 @@ void check_contract(const PointsRef& vertices, const CoordinatesRef& coordinates
   require(check.manifold() && check.oriented(), "simplification needs a manifold, oriented mesh");
 }
 
+/// Of each face number: the point farthest beyond an error that it is the nearest face of, and -1 if there is none.
+std::vector<Index> farthest_beyond(const EditableMesh& mesh, const PointsRef& points, double error) {
+  const std::vector<Index> numbers = mesh.faces_in_order();
+  const TriangleMesh arrays = mesh.mesh();
+  const SurfacePoints feet = closest_surface_points(arrays.vertices, arrays.faces, points);
+  std::vector<Index> farthest(static_cast<std::size_t>(mesh.face_numbers()), -1);
+  for (Index p = 0; p < points.rows(); ++p) {
+    Index& kept = farthest[numbers[feet.face(p)]];
+    if (feet.distance(p) > (kept < 0 ? error * kRounding : feet.distance(kept))) kept = p;
+  }
+  return farthest;
+}
+
 bool any(const std::vector<Index>& points) {
   return std::any_of(points.begin(), points.end(), [](Index p) { return p >= 0; });
 }
 
-/// Whether a split of the edge ab at a point would leave half a face that the point's normal sees from behind.
+/// Whether a split of the edge ab at a point would fold a face over: half of it would turn by more than a right angle,
+/// and be seen from behind by the normal of the point.
 bool split_folds(const EditableMesh& mesh, Index a, Index b, const Eigen::Vector3d& point,
                  const Eigen::Vector3d& normal) {
-  const auto faces_away = [&](Index f, Index replaced) {
+  const auto vector_of = [&](Index f, Index replaced) {
     Eigen::Vector3d at[3];
     for (int i = 0; i < 3; ++i) {
       const Index corner = mesh.corners(f)[i];
       at[i] = corner == replaced ? point : mesh.position(corner);
     }
-    return area_vector(at[0], at[1], at[2]).dot(normal) <= 0;
+    return area_vector(at[0], at[1], at[2]);
+  };
+  const auto folds = [&](Index f) {
+    const Eigen::Vector3d whole = vector_of(f, -1), halves[] = {vector_of(f, a), vector_of(f, b)};
+    return std::any_of(std::begin(halves), std::end(halves),
+                       [&](const Eigen::Vector3d& half) { return half.dot(whole) <= 0 && half.dot(normal) <= 0; });
   };
   const auto& around = mesh.faces_around(a);
-  return std::any_of(around.begin(), around.end(),
-                     [&](Index f) { return mesh.has_corner(f, b) && (faces_away(f, a) || faces_away(f, b)); });
+  return std::any_of(around.begin(), around.end(), [&](Index f) { return mesh.has_corner(f, b) && folds(f); });
 }
 
 /// Splits each face that a point is too far from, at that point: the face, or its edge where the point lies near that;
@@ -145,14 +167,14 @@ SimplifiedMesh simplify_within(const PointsRef& vertices, const CoordinatesRef& 
       if (done % kCollapsesPerReport > 0) continue;
       report(progress, (round + static_cast<double>(done) / first) / kRounds);
     }
-    std::vector<Index> beyond = links.farthest_beyond(mesh);
+    std::vector<Index> beyond = farthest_beyond(mesh, points, error);
     if (!any(beyond) || round + 1 == kRounds) {
       report(progress, 1);
       return arrays_of(mesh, parts);
     }
     for (int splits = 0; any(beyond) && splits < kSplits; ++splits) {
       if (!split_beyond(mesh, parts, beyond, points, normals)) break;
-      beyond = PointLinks(mesh, disks, error).farthest_beyond(mesh);
+      beyond = farthest_beyond(mesh, points, error);
     }
     made = arrays_of(mesh, parts);
   }
