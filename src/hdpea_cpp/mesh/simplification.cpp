@@ -105,12 +105,14 @@ bool split_beyond(EditableMesh& mesh, std::vector<SurfacePart>& parts, const std
     weights /= normal.squaredNorm();
     if (!weights.allFinite()) continue;
     int least;
-    if (weights.minCoeff(&least) < kNearEdge) {
-      const Index from = corners[(least + 1) % 3], to = corners[(least + 2) % 3];
-      if (split_folds(mesh, from, to, point, normals.row(beyond[f]))) continue;
+    const double beside = weights.minCoeff(&least);
+    const Index from = corners[(least + 1) % 3], to = corners[(least + 2) % 3];
+    if (beside < kNearEdge && !split_folds(mesh, from, to, point, normals.row(beyond[f]))) {
       mesh.split_edge(from, to, point);
-    } else {
+    } else if (beside > 0) {
       mesh.split(f, point);
+    } else {
+      continue;
     }
     SurfacePart part;
     part.centroid = Eigen::VectorXd::Zero(parts[corners[0]].centroid.size());
