@@ -56,6 +56,13 @@ def test_classes_are_taken_before_tiles_are_cut(tmp_path: Path) -> None:
         reconstruct_in_tiles(stream_of_cloud(cloud, "scene"), Tiling(tmp_path / "c", 1e9), none)
 
 
+def test_the_report_says_the_reference_system(tmp_path: Path) -> None:
+    points, directions = clouds.torus(POINTS)
+    stream = stream_of_cloud(PointCloud(points, directions, {}, crs="EPSG:25832"), "torus")
+    made = reconstruct_in_tiles(stream, Tiling(tmp_path / "a", 1e9, tile_points=TILE_POINTS))
+    assert made.crs == made.report.source["crs"] == "EPSG:25832"
+
+
 def made(folder: Path, jobs: int = 1, normals: bool = True) -> Reconstruction:
     return reconstruct_in_tiles(torus_stream(normals), Tiling(folder / "work", 1e9, jobs, tile_points=TILE_POINTS))
 
