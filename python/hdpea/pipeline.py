@@ -167,7 +167,7 @@ def _report(made: _Made, faced: FacedMesh, journal: Journal, progress: ProgressC
         error = achieved_error(mesh, prepared.surface, given, options.meshing.error, compared.of_embedded)
         tell(progress, "measuring", 1)
     cloud, found = made.cloud, made.found
-    journal.source |= {"format": cloud.format} | ({} if cloud.crs is None else {"crs": cloud.crs})
+    journal.take_source(cloud.format, cloud.crs)
     journal.counts |= cloud.counts() | found.counts() | {"normals_estimated": prepared.oriented.estimated}
     journal.choices += [*device_choices(options.embedding.device), *prepared.choices, *made.choices]
     journal.meshing |= mesh.statistics

@@ -140,6 +140,10 @@ class Journal:
     missed: list[str] = field(default_factory=list)
     clock: StageClock = field(default_factory=StageClock)
 
+    def take_source(self, format: str, crs: str | None) -> None:
+        """Take down what was read: its format, and its coordinate reference system if it says one."""
+        self.source |= {"format": format} | ({} if crs is None else {"crs": crs})
+
 
 @dataclass(kw_only=True)
 class Report(Journal):

@@ -181,7 +181,7 @@ def _result(stream: PointStream, work: Work, journal: Journal) -> Reconstruction
     mesh = Mesh(kept["vertices"], kept["faces"], kept["vertices"], self_intersections=facts["self_intersections"])
     distances, agreement, error, along_z = measured(work)
     found = mesh_facts(mesh)
-    journal.source |= {"format": stream.format} | ({} if stream.crs is None else {"crs": stream.crs})
+    journal.take_source(stream.format, stream.crs)
     journal.counts |= {
         "points": sum(each["points"] for each in tiles),
         "dropped": sum(each["dropped"] for each in tiles),
