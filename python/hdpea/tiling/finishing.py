@@ -18,6 +18,7 @@ from hdpea.mesh.extraction import Mesh
 from hdpea.mesh.refinement import refine_mesh
 from hdpea.mesh.simplification import simplify_mesh
 from hdpea.options import MeshingOptions
+from hdpea.reading.triangle_mesh import drop_unused
 from hdpea.surface.surface import Surface
 from hdpea.tiling.joining import save_mesh
 from hdpea.tiling.regions import Region, region_of
@@ -122,8 +123,7 @@ def merge(work: Work, color: int) -> None:
     if kept.min(initial=0) < 0:
         raise HdpeaError("Two tiles edited one face.", "This is an error in hdpea: please report it with the input.")
     faces = np.vstack([faces[kept == 1], *added])
-    used, numbers = np.unique(faces, return_inverse=True)
-    save_mesh(work, color + 1, np.vstack(vertices)[used], numbers.reshape(-1, 3), whole["patches"], facts)
+    save_mesh(work, color + 1, *drop_unused(np.vstack(vertices), faces), whole["patches"], facts)
 
 
 def finished_mesh(work: Work) -> Mesh:
