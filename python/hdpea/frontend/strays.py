@@ -111,7 +111,7 @@ def _stand_out(standing: Standing, rows: NDArray[np.int64], farther: float, plan
         reached = standing.reached(count)
         out[rows] |= reached[rows] > farther * _around(reached, standing, rows, count)
     reached, left = standing.reached(max(REACHES)), standing.rows
-    sparse = left[~out[left] & (reached[left] > SPARSE * np.median(reached[left]))]
+    sparse = rows[~out[rows] & (reached[rows] > SPARSE * np.median(reached[left]))]
     if len(sparse) and len(left) > FAR_REACH:
         out[sparse] = _lie_far_off(standing.points, left, sparse, farther)
     if planar:
@@ -128,11 +128,13 @@ def _lie_far_off(
     """Return which of the `rows` of points (n, 3) stand out over the far reach among those `left`, (rows,) bool."""
     standing = np.ascontiguousarray(points[left])
     nearest = left[_core.nearest_neighbors(standing, np.ascontiguousarray(points[rows]), FAR_REACH + 1)[:, 1:]]
-    asked, at = np.unique(np.concatenate([rows[:, None], nearest], axis=1), return_inverse=True)
+    reached = np.zeros(len(points))
+    reached[rows] = reached[nearest] = 1
+    asked = np.flatnonzero(reached)
     places = np.ascontiguousarray(points[asked])
     last = left[_core.nearest_neighbors(standing, places, FAR_REACH + 1)[:, -1]]
-    reached = np.linalg.norm(points[last] - places, axis=1)[at.reshape(len(rows), -1)]
-    return np.asarray(reached[:, 0] > farther * np.quantile(reached[:, 1:], SURROUNDINGS, axis=1))
+    reached[asked] = np.linalg.norm(points[last] - places, axis=1)
+    return np.asarray(reached[rows] > farther * np.quantile(reached[nearest], SURROUNDINGS, axis=1))
 
 
 def _around(

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from hdpea.embedding import Embedder, embed_surface
 from hdpea.embedding.tangents import tangent_bases
+from hdpea.geometry.thinning import rows_without
 from hdpea.geometry.triangles import mesh_area
 from hdpea.geometry.unit_frame import UnitFrame
 from hdpea.mesh.assembly import assemble_mesh
@@ -67,7 +68,7 @@ def mesh_surface(
 
     if not parts or options.meshing.error is not None:
         return made_of(surface, options, shown)
-    rest = np.setdiff1d(np.arange(len(surface.points_in_unit)), np.concatenate(parts))
+    rest = rows_without(len(surface.points_in_unit), *parts)
     made = list[tuple[Mesh, UnitFrame, tuple[Choice, ...]]]()
     for rows in (rest, *parts):
         part, share = _part_of(surface, rows), len(rows) / len(surface.points_in_unit)

@@ -23,22 +23,15 @@ class Cost:
         return self.fixed + for_points + for_vertices
 
 
-# Fitted by benchmarks/cost_fit.py to runs in one piece on clouds of 10,000 to 1,000,000 points with 1,250 to 100,000
-# vertices, those of docs/performance.md.
-PROCESSOR_SECONDS = Cost(
-    fixed=3.1, per_thousand_points=0.01186, per_thousand_vertices=0.318, points_power=1.3, vertices_power=1.0
-)
-"""Processor time of the whole command, all threads together, but for the orientation of normals."""
+# Fitted by benchmarks/cost_fit.py to runs in one piece on clouds of 10,000 to 1,000,000 points, with and without
+# normals, with 1,250 to 100,000 vertices, those of docs/performance.md.
+PROCESSOR_SECONDS = Cost(fixed=3.64, per_thousand_points=0.0853, per_thousand_vertices=0.0978, vertices_power=1.25)
+"""Processor time of the whole command, all threads together."""
 
 ON_TWO_CORES = 0.73
 """Seconds on two idle cores for each of the processor: 0.72 and 0.73 of 250,000 and 40,000 points."""
 
-# The winding number's sums over a tree grow as n log n, and dwarf the spanning tree that they are compared with.
-# Half the processor time of tori of 10,000 to 100,000 points: to be fitted to whole runs.
-ORIENTING_SECONDS = Cost(fixed=0, per_thousand_points=0.04, per_thousand_vertices=0, points_power=1.08)
-"""What orienting adds where the file does not say which side is out."""
-
-PEAK_BYTES = Cost(fixed=255e6, per_thousand_points=2.56e6, per_thousand_vertices=0.44e6)
+PEAK_BYTES = Cost(fixed=264e6, per_thousand_points=2.42e6, per_thousand_vertices=0)
 """Peak resident memory of the process."""
 
 
@@ -57,10 +50,9 @@ TILED_DISK_BYTES = 605
 """Bytes of the disk for each point of a cloud in tiles, while they are worked on (``docs/scaling.md``)."""
 
 
-def seconds_of_run(points: int, vertices: int, oriented: bool) -> float:
-    """Return the seconds of a run on a cloud whose normals are `oriented`, such that their signs will be kept."""
-    orienting = 0 if oriented else ORIENTING_SECONDS.of(points, vertices)
-    return ON_TWO_CORES * PROCESSOR_SECONDS.of(points, vertices) + orienting
+def seconds_of_run(points: int, vertices: int) -> float:
+    """Return the seconds of a run on two idle cores."""
+    return ON_TWO_CORES * PROCESSOR_SECONDS.of(points, vertices)
 
 
 def points_within(memory: float, points_per_vertex: float) -> int:

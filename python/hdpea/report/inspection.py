@@ -76,7 +76,7 @@ def inspect(cloud: PointCloud) -> CloudFacts:
         normal_agreement=None if signs is None else signs.consistency,
         normals_oriented=oriented,
         default_vertices=vertices,
-        estimated_seconds=seconds_of_run(left, vertices, bool(oriented)),
+        estimated_seconds=seconds_of_run(left, vertices),
         estimated_peak_bytes=PEAK_BYTES.of(left, vertices),
         crs=cloud.crs,
         notes=[*cloud.notes, *found.notes],

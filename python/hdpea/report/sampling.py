@@ -51,7 +51,7 @@ def inspect_stream(stream: PointStream) -> CloudFacts:
         spacing=None if facts.spacing is None else facts.spacing / np.sqrt(times),
         surface_spacing=None if facts.surface_spacing is None else facts.surface_spacing / np.sqrt(times),
         default_vertices=vertices,
-        estimated_seconds=seconds_of_run(kept, vertices, bool(facts.normals_oriented)),
+        estimated_seconds=seconds_of_run(kept, vertices),
         estimated_peak_bytes=PEAK_BYTES.of(kept, vertices),
         notes=[note, *facts.notes],
     )

@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 from hdpea import _core
 from hdpea.geometry.linked import first_linked
+from hdpea.geometry.thinning import rows_without
 from hdpea.surface.surface import AREA_NEIGHBORS, areas_shown
 
 Vectors = NDArray[np.float64]
@@ -81,7 +82,9 @@ def _linked(points: Vectors, neighbors: NDArray[np.int64], spacings: Vectors) ->
 
 def _continues(points: Vectors, directions: Vectors, rows: NDArray[np.int64], reach: float) -> bool:
     """Return whether the part of these rows (m,) continues along its tangent planes into the points within reach."""
-    others = np.setdiff1d(np.arange(len(points)), rows)
+    least, most = points[rows].min(axis=0) - reach, points[rows].max(axis=0) + reach
+    others = rows_without(len(points), rows)
+    others = others[((points[others] >= least) & (points[others] <= most)).all(axis=1)]
     nearest = rows[_core.nearest_neighbors(points[rows], points[others], 1)[:, 0]]
     offsets = points[others] - points[nearest]
     lengths = np.linalg.norm(offsets, axis=1)

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from hdpea import _core
 from hdpea.errors import UnreadableInput, UsageError
 from hdpea.frontend.roughness import Roughness
-from hdpea.geometry.thinning import farthest_rows
+from hdpea.geometry.thinning import farthest_rows, rows_without
 from hdpea.options import NormalOptions
 from hdpea.runtime.progress import PhaseCallback
 from hdpea.surface.given_signs import GivenSigns
@@ -188,7 +188,7 @@ def _each_by_itself(
     parts: tuple[NDArray[np.int64], ...],
 ) -> Orientation:
     """Orient each of the parts, and what is left, as if it were all there is; told is how what is left was."""
-    rest = np.setdiff1d(np.arange(len(points)), np.concatenate(parts))
+    rest = rows_without(len(points), *parts)
     normals, found = directions.copy(), list[Orientation]()
     for rows in (*parts, rest):
         own = np.ascontiguousarray(points[rows])

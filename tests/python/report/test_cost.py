@@ -9,35 +9,38 @@ from hdpea.report.cost import (
     PEAK_BYTES,
     PROCESSOR_SECONDS,
     TILED_WHOLE_BYTES,
-    seconds_of_run,
     tiled_vertices_within,
 )
 
-# Points (with normals), vertices, processor seconds of the whole command, peak memory in MB.
-MEASURED = [
-    (10_000, 1_250, 3.6, 291),
-    (10_000, 4_000, 4.7, 293),
-    (40_000, 5_000, 6.5, 347),
-    (40_000, 15_000, 9.3, 364),
-    (100_000, 12_500, 11.7, 492),
-    (250_000, 10_000, 22.0, 889),
-    (250_000, 31_250, 27.7, 888),
-    (1_000_000, 100_000, 130.5, 3064),
+# Points, vertices, processor seconds of the whole command, peak memory in MB.
+WITH_NORMALS = [
+    (10_000, 1_250, 4.7, 294),
+    (10_000, 4_000, 4.6, 299),
+    (40_000, 5_000, 7.6, 358),
+    (40_000, 15_000, 10.2, 359),
+    (100_000, 12_500, 13.6, 483),
+    (250_000, 10_000, 25.3, 856),
+    (250_000, 31_250, 30.2, 857),
+    (1_000_000, 100_000, 127.9, 2861),
+]
+WITHOUT_NORMALS = [
+    (10_000, 1_250, 4.6, 296),
+    (40_000, 5_000, 9.3, 361),
+    (100_000, 12_500, 17.3, 480),
+    (250_000, 31_250, 31.8, 853),
+    (1_000_000, 100_000, 115.8, 2788),
 ]
 
 
-@pytest.mark.parametrize(("points", "vertices", "seconds", "megabytes"), MEASURED)
-def test_estimates_are_within_a_tenth_of_what_was_measured(
-    points: int, vertices: int, seconds: float, megabytes: float
+@pytest.mark.parametrize(
+    ("points", "vertices", "seconds", "megabytes", "within"),
+    [(*run, 0.1) for run in WITH_NORMALS] + [(*run, 0.2) for run in WITHOUT_NORMALS],
+)
+def test_estimates_are_near_what_was_measured(
+    points: int, vertices: int, seconds: float, megabytes: float, within: float
 ) -> None:
-    assert PROCESSOR_SECONDS.of(points, vertices) == pytest.approx(seconds, rel=0.1)
+    assert PROCESSOR_SECONDS.of(points, vertices) == pytest.approx(seconds, rel=within)
     assert PEAK_BYTES.of(points, vertices) == pytest.approx(1e6 * megabytes, rel=0.1)
-
-
-def test_a_cloud_that_must_be_oriented_takes_longer_the_larger_it_is() -> None:
-    extra = [seconds_of_run(n, 1000, oriented=False) - seconds_of_run(n, 1000, oriented=True) for n in (0, 1000, 10**5)]
-    assert extra[0] == 0
-    assert 0 < 100 * extra[1] < extra[2]
 
 
 @pytest.mark.parametrize(("memory", "none"), [(0.2e9, True), (4e9, False)])
