@@ -29,8 +29,12 @@ def of_classes(cloud: PointCloud, classes: Classes) -> PointCloud:
     if not len(rows):
         there = ", ".join(map(str, np.unique(found)[:20]))
         raise UsageError(f"No point is of the `classes` {classes}.", f"There are points of the classes {there}.")
-    note = f"Taken: the {len(rows):,} of {len(found):,} points that are of the classes {classes}."
-    return replace(cloud.at(rows), notes=(*cloud.notes, note))
+    return replace(cloud.at(rows), notes=(*cloud.notes, taken_note(len(rows), len(found), classes)))
+
+
+def taken_note(taken: int, count: int, classes: Classes) -> str:
+    """Return a sentence about how many points are of the classes."""
+    return f"Taken: the {taken:,} of {count:,} points that are of the classes {classes}."
 
 
 def stream_of_classes(stream: PointStream, classes: Classes) -> PointStream:

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from hdpea.errors import core_errors_translated
 from hdpea.frontend.classes import of_classes
-from hdpea.frontend.classifying import Classified, classify
+from hdpea.frontend.classifying import classify
 from hdpea.frontend.crowds import crowd_means
 from hdpea.frontend.precision import precision_note
 from hdpea.geometry.spatial_order import spatial_order
@@ -38,6 +38,11 @@ class DroppedPoints:
 
     points: NDArray[np.float64] = field(default_factory=lambda: np.empty((0, 3)))
     reasons: NDArray[np.uint8] = field(default_factory=lambda: np.empty(0, dtype=np.uint8))
+
+    def counts(self, among: NDArray[np.bool_] | None = None) -> dict[str, int]:
+        """Return how many there are for each reason, by name: of all, or `among` some, (m,) bool."""
+        reasons = self.reasons if among is None else self.reasons[among]
+        return {"dropped_strays": int((reasons == STRAY).sum()), "dropped_on_lines": int((reasons == ON_LINES).sum())}
 
 
 @dataclass(frozen=True)
@@ -76,8 +81,7 @@ class SurfaceCloud:
 
     def counts(self) -> dict[str, int]:
         """Return how many points were left out, by name."""
-        reasons = self.dropped.reasons
-        return {"dropped_strays": int((reasons == STRAY).sum()), "dropped_on_lines": int((reasons == ON_LINES).sum())}
+        return self.dropped.counts()
 
 
 def surface_cloud(cloud: PointCloud, options: CleaningOptions | None = None) -> SurfaceCloud:
@@ -109,15 +113,16 @@ def surface_cloud(cloud: PointCloud, options: CleaningOptions | None = None) -> 
         on_surface = cloud.at(np.flatnonzero(~found.strays))
         left = replace(left, points=crowd_means(cloud.points, found.kept, found.stands_for))
     dropped = DroppedPoints(cloud.points[gone], reasons)
-    return SurfaceCloud(left, on_surface, found.shown, spacing, dropped, (*notes, *_notes(found)))
+    notes = (*notes, *dropped_notes(dropped.counts(), len(cloud.points)))
+    return SurfaceCloud(left, on_surface, found.shown, spacing, dropped, notes)
 
 
-def _notes(found: Classified) -> list[str]:
-    strays = int(found.strays.sum())
-    on_lines = len(found.kept) - strays - int(found.kept.sum())
+def dropped_notes(counts: dict[str, int], of: int) -> list[str]:
+    """Return sentences about points that were left out `of` so many."""
+    strays, on_lines = counts["dropped_strays"], counts["dropped_on_lines"]
     notes = []
     if strays:
-        share = strays / len(found.kept)
+        share = strays / of
         many = f", {share:.0%} of all: see that they are no part of it" if share > MANY else ""
         notes.append(f"Dropped points that lie on no surface: {strays:,}{many}.")
     if on_lines:

@@ -31,7 +31,6 @@ def prepare(work: Work, tile: int) -> None:
     points, points_given = (plan.frame.to_unit(each.frame.to_world(each.points_in_unit)) for each in (surface, given))
     own = plan.inside(tile, points_given)
     area = areas_shown(points, surface.neighbors)
-    dropped = plan.inside(tile, plan.frame.to_unit(found.dropped.points))
     facts = {
         "spacing": surface.spacing * surface.frame.diagonal / plan.frame.diagonal,
         "points": int(own.sum()),
@@ -40,7 +39,7 @@ def prepare(work: Work, tile: int) -> None:
         "computed_sides": prepared.oriented.computed_sides,
         "exact": prepared.exact,
         "estimated": round(prepared.oriented.estimated * float(own.mean())),
-        "dropped": int(dropped.sum()),
+        "dropped": found.dropped.counts(plan.inside(tile, plan.frame.to_unit(found.dropped.points))),
         "known": len(points),
         "choices": [asdict(choice) for choice in prepared.choices],
         "missed": list(prepared.missed),

@@ -12,7 +12,8 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from hdpea.errors import UsageError
-from hdpea.frontend.classes import stream_of_classes
+from hdpea.frontend.classes import stream_of_classes, taken_note
+from hdpea.frontend.cleaning import dropped_notes
 from hdpea.mesh.extraction import Mesh
 from hdpea.options import Options
 from hdpea.options.choice import Choice
@@ -118,6 +119,8 @@ def reconstruct_in_tiles(
             options = replace(options, cleaning=replace(options.cleaning, classes=None))
         with journal.clock.stage("tiling"):
             plan = take_in(stream, folder, options, size, most)
+        if classes is not None:
+            journal.notes.append(taken_note(plan.points, stream.count, classes))
         work = Work(folder, plan, options)
         workers = tiling.workers(plan.tile_points, plan.points / options.vertices_of(plan.points))
         tasks, after = tasks_of(work, options.threads or max((os.cpu_count() or 1) // workers, 1))
@@ -184,11 +187,12 @@ def _result(stream: PointStream, work: Work, journal: Journal) -> Reconstruction
     journal.take_source(stream.format, stream.crs)
     journal.counts |= {
         "points": sum(each["points"] for each in tiles),
-        "dropped": sum(each["dropped"] for each in tiles),
         "normals_estimated": sum(each["estimated"] for each in tiles),
         "tiles": work.plan.tiles,
         "points_in_largest_tile": max(each["known"] for each in tiles),
     }
+    dropped = {name: sum(each["dropped"][name] for each in tiles) for name in tiles[0]["dropped"]}
+    journal.counts |= dropped
     diagonal, agreed = work.plan.frame.diagonal, work.folder.facts("agreed")
     why = "beyond a tile, its points are known"
     journal.choices += [
@@ -198,7 +202,8 @@ def _result(stream: PointStream, work: Work, journal: Journal) -> Reconstruction
         Choice("particles", agreed["particles"], "", "of all tiles together"),
     ]
     journal.meshing |= facts["statistics"]
-    journal.notes += [_note(stream, work), *dict.fromkeys(note for each in tiles for note in each["notes"])]
+    journal.notes += [_note(stream, work), *dropped_notes(dropped, work.plan.points)]
+    journal.notes += dict.fromkeys(note for each in tiles for note in each["notes"])
     if estimated := journal.counts["normals_estimated"]:
         journal.notes.append(f"Normals of {estimated:,} points were estimated.")
     journal.notes += facts["notes"]

@@ -51,6 +51,7 @@ def test_classes_are_taken_before_tiles_are_cut(tmp_path: Path) -> None:
         stream_of_cloud(cloud, "scene"), Tiling(tmp_path / "b", 1e9, tile_points=TILE_POINTS), options
     )
     np.testing.assert_array_equal(taken.vertices, alone.vertices)
+    assert "Taken: the 6,000 of 6,500 points that are of the classes 2." in taken.report.notes
     none = Options(cleaning=CleaningOptions(classes=Classes.of([6])))
     with pytest.raises(UsageError, match="No point is of the"):
         reconstruct_in_tiles(stream_of_cloud(cloud, "scene"), Tiling(tmp_path / "c", 1e9), none)
@@ -61,6 +62,16 @@ def test_the_report_says_the_reference_system(tmp_path: Path) -> None:
     stream = stream_of_cloud(PointCloud(points, directions, {}, crs="EPSG:25832"), "torus")
     made = reconstruct_in_tiles(stream, Tiling(tmp_path / "a", 1e9, tile_points=TILE_POINTS))
     assert made.crs == made.report.source["crs"] == "EPSG:25832"
+
+
+def test_each_stray_is_told_once_though_tiles_overlap(tmp_path: Path) -> None:
+    points = clouds.torus(POINTS)[0]
+    strays = 0.3 * np.array([[x, y, z] for x in (-1, 0, 1) for y in (-1, 0, 1) for z in (-1.0, 1)])
+    stream = stream_of_cloud(PointCloud(np.vstack([points, strays]), None, {}), "torus")
+    report = reconstruct_in_tiles(stream, Tiling(tmp_path / "a", 1e9, tile_points=TILE_POINTS)).report
+    assert report.counts["tiles"] > 1
+    assert (report.counts["dropped_strays"], report.counts["points"]) == (len(strays), POINTS)
+    assert "Dropped points that lie on no surface: 18." in report.notes
 
 
 def made(folder: Path, jobs: int = 1, normals: bool = True) -> Reconstruction:
