@@ -157,7 +157,7 @@ def _in_tiles(points: int, vertices: int, resources: Resources) -> str:
     each = PEAK_BYTES.of(tile_points, round(tile_points * vertices / points))
     whole = TILED_WHOLE_BYTES.of(points, vertices)
     return (
-        f"about {2 / jobs * TILED_SECONDS * points:.0f} s in tiles with --jobs {jobs}, {each / 1e9:.1f} GB in each "
+        f"about {TILED_SECONDS * points:.0f} s in tiles with --jobs {jobs}, {each / 1e9:.1f} GB in each "
         f"process, {whole / 1e9:.1f} GB in the end for the whole mesh{_fewer(whole, resources)}, and "
         f"{TILED_DISK_BYTES * points / 1e9:.1f} GB of the disk, for {vertices:,} vertices"
     )
