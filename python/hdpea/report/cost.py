@@ -39,8 +39,8 @@ WITHOUT_NORMALS = 1.4
 """How many times as much memory a cloud may take whose normals are estimated: 1.37 times of a lidar tile."""
 
 TILED_SECONDS = 0.1e-3
-"""Seconds for each point of a cloud in tiles, on two cores, whether one process has both or two have one each: 142 s for
-the 1,459,800 ground points of a flight; 0.146 ms of a processor of 10,000,000 (``docs/scaling.md``)."""
+"""Seconds for each point of a cloud in tiles, on two cores, whether one process has both or two have one each: 142 s
+for the 1,459,800 ground points of a flight; 0.146 ms of a processor of 10,000,000 (``docs/scaling.md``)."""
 
 TILED_WHOLE_BYTES = Cost(fixed=0.3e9, per_thousand_points=0, per_thousand_vertices=2.75e6)
 """Memory for the mesh of all tiles, which one process extracts, repairs and measures: 988 MB for 250,000 vertices and

@@ -17,8 +17,9 @@ from hdpea.options.choice import Choice
 from hdpea.runtime.progress import ProgressCallback, of_phase, tell
 from hdpea.surface.dense_parts import dense_parts
 from hdpea.surface.given_signs import GivenSigns, given_signs
-from hdpea.surface.orientation import SignEvidence, Vectors, orient, require_signs
+from hdpea.surface.orientation import orient, require_signs
 from hdpea.surface.plausibility import are_normals
+from hdpea.surface.signs import SignEvidence, Vectors
 from hdpea.surface.surface import NEIGHBORS, Surface, require_surface
 
 ORIENTATION_NEIGHBORS = 16

@@ -12,9 +12,9 @@ from helpers import clouds
 from hdpea.errors import UnreadableInput, UsageError
 from hdpea.options import NormalOptions
 from hdpea.options.position import Position
-from hdpea.surface import orientation
+from hdpea.surface import agreement_of_signs
 from hdpea.surface.normals import OrientedSurface, oriented_surface
-from hdpea.surface.orientation import cosines
+from hdpea.surface.signs import cosines
 
 Array = clouds.Array
 
@@ -64,7 +64,7 @@ def test_the_sides_of_a_wall_thinner_than_the_spacing_are_told_apart(noise: floa
 
 @pytest.mark.parametrize("shape", clouds.CLOSED)
 def test_some_points_decide_the_side_of_all(shape: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(orientation, "DECIDING", 1500)
+    monkeypatch.setattr(agreement_of_signs, "DECIDING", 1500)
     points, truth = clouds.CLOSED[shape](6000)
     assert (cosines(oriented(points, flipped_half(truth)), truth) > 0).mean() > 0.995
 
@@ -163,6 +163,6 @@ def test_the_spanning_tree_must_be_clearly_better(monkeypatch: pytest.MonkeyPatc
     def with_share_turned(share: float) -> Array:
         return truth * np.where(random.random((len(truth), 1)) < share, -1, 1)
 
-    monkeypatch.setattr(orientation, "by_spanning_tree", lambda *_: with_share_turned(0.01))
-    monkeypatch.setattr(orientation, "by_winding_number", lambda *_: with_share_turned(wrong))
+    monkeypatch.setattr(agreement_of_signs, "by_spanning_tree", lambda *_: with_share_turned(0.01))
+    monkeypatch.setattr(agreement_of_signs, "by_winding_number", lambda *_: with_share_turned(wrong))
     assert chosen_way(oriented_surface(points)) == [best]

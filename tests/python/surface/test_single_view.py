@@ -12,8 +12,8 @@ from helpers import clouds
 from hdpea.options import NormalOptions
 from hdpea.reading.cloud import cleaned_cloud
 from hdpea.surface.normals import OrientedSurface, oriented_surface
-from hdpea.surface.orientation import cosines
 from hdpea.surface.preparation import prepare_surface
+from hdpea.surface.signs import cosines
 
 Array = clouds.Array
 

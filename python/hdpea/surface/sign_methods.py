@@ -1,0 +1,68 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Methods that find the signs of normals whose directions are known."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from hdpea import _core
+from hdpea.runtime.progress import PhaseCallback
+from hdpea.surface.signs import SignEvidence, Vectors, cosines, turned
+from hdpea.surface.single_view import GRAZING, View
+
+AGREEING_COSINE = 0.5
+"""Least |cosine| with the winding number's normal at which a direction counts as the same normal: 60 degrees."""
+
+DEVIATIONS_WIDE = 1.6
+"""Smoothing width of the winding number for each standard deviation of the noise.
+
+A smaller width resolves single points, and beside holes half of a thick shell of noise turns inwards (boot, noise of
+0.5 % of the diagonal); a larger one merges the two sides of a wall (goblet_top, as much noise, from 2.0 on)."""
+
+MOST_OF_WALLS = 0.15
+"""Largest deviation, in spacings, that counts for the width where it is not noise: walls must keep two sides."""
+
+
+def by_file(points: Vectors, directions: Vectors, evidence: SignEvidence) -> Vectors:
+    """Take the signs of the given normals, and where there is none, that of the nearest point that has one."""
+    signed = turned(directions, evidence.given)
+    usable = np.asarray(evidence.given.any(axis=1))
+    if usable.all():
+        return signed
+    oriented = by_spanning_tree(points, directions, evidence)
+    kept = cosines(oriented, signed)[usable] >= 0
+    nearest_usable = _core.nearest_neighbors(points[usable], points[~usable], 1)[:, 0]
+    signed[~usable] = np.where(kept[nearest_usable], 1, -1)[:, None] * oriented[~usable]
+    return signed
+
+
+def by_view(points: Vectors, directions: Vectors, evidence: SignEvidence, view: View) -> Vectors:
+    """Turn normals to what saw the points; those seen at a grazing angle, where noise decides, follow the others."""
+    signed = turned(directions, view.towards)
+    known = np.asarray(cosines(signed, view.towards) > GRAZING)
+    return signed if known.all() else _core.orient_normals(points, signed, evidence.neighbors, known)
+
+
+def by_spanning_tree(points: Vectors, directions: Vectors, evidence: SignEvidence) -> Vectors:
+    """Propagate the sign from neighbour to neighbour, along the edges whose ends are most nearly parallel."""
+    return _core.orient_normals(points, directions, evidence.neighbors)
+
+
+def by_winding_number(
+    points: Vectors,
+    directions: Vectors,
+    evidence: SignEvidence,
+    progress: PhaseCallback | None = None,
+) -> Vectors:
+    """Take the signs of the winding number's normals; estimates far from these are replaced by them."""
+    options, roughness = _core.WnncOptions(), evidence.roughness
+    noise = roughness.deviation if roughness.like_noise else min(roughness.deviation, MOST_OF_WALLS)
+    options.spacings_wide += DEVIATIONS_WIDE * noise
+    winding = _core.wnnc_normals(points, options, progress)
+    agreeing = abs(cosines(directions, winding)) >= AGREEING_COSINE
+    signed = turned(directions, winding)
+    # An estimate far off was fitted across an edge or a thin wall, which the winding number tells apart.
+    replaced = evidence.estimated & ~agreeing
+    signed[replaced] = winding[replaced]
+    # Beside large holes of the cloud it may be wrong about half a face: so faces vote.
+    return _core.agree_on_signs(points, signed, evidence.neighbors)
