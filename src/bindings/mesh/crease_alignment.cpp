@@ -2,6 +2,7 @@
 #include "hdpea_cpp/mesh/crease_alignment.hpp"
 
 #include "bindings/bindings.hpp"
+#include "hdpea_cpp/mesh/crease_edges.hpp"
 
 void register_crease_alignment(nb::module_& module) {
   using hdpea::AlignedMesh;

@@ -4,60 +4,19 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <tuple>
 #include <vector>
 
 #include "hdpea_cpp/base/area_vector.hpp"
 #include "hdpea_cpp/base/checks.hpp"
-#include "hdpea_cpp/base/errors.hpp"
 #include "hdpea_cpp/mesh/flippable_mesh.hpp"
+#include "hdpea_cpp/points/creases_nearby.hpp"
 #include "hdpea_cpp/points/neighbors.hpp"
 
 namespace hdpea {
 namespace {
 
 using Vector = Eigen::RowVector3d;
-
-/// Of an edge along a crease: the least angle between its faces and the most to the crease, in degrees, and the
-/// farthest that its middle lies off, in spacings.
-constexpr double kSharp = 30, kTurned = 20, kOff = 0.5;
-
-double cosine_of(double degrees) { return std::cos(degrees * std::numbers::pi / 180); }
-
-/// Creases as seen from places near them.
-class CreasesNearby {
- public:
-  explicit CreasesNearby(const Creases& creases) : creases_(creases), positions_(crease_positions(creases.samples)) {}
-
-  Neighbors near(const Points& places) const { return nearest_neighbors(positions_, places, kNearest); }
-  double spacing(Index s) const { return creases_.samples[s].spacing; }
-  Vector direction(Index s) const { return creases_.samples[s].direction.transpose(); }
-  /// Signed distance from the plane that halves the angle of the crease.
-  double side(Index s, const Vector& x) const {
-    const CreaseSample& sample = creases_.samples[s];
-    return (sample.first - sample.second).normalized().dot(offset(s, x));
-  }
-  double along(Index s, const Vector& x) const { return creases_.samples[s].direction.dot(offset(s, x)); }
-  Vector foot(Index s, const Vector& x) const { return positions_.row(s) + along(s, x) * direction(s); }
-  double distance(Index s, const Vector& x) const { return (x - foot(s, x)).norm(); }
-  /// Whether the sample speaks for this stretch of the crease.
-  bool covers(Index s, const Vector& x) const { return std::abs(along(s, x)) <= kStretch * spacing(s); }
-  /// How far a place is from the nearer of the two planes.
-  double height(Index s, const Vector& x) const {
-    const CreaseSample& sample = creases_.samples[s];
-    return std::min(std::abs(sample.first.dot(offset(s, x))), std::abs(sample.second.dot(offset(s, x))));
-  }
-
- private:
-  static constexpr Index kNearest = 16;
-  static constexpr double kStretch = 1.0;
-
-  Eigen::Vector3d offset(Index s, const Vector& x) const { return x.transpose() - creases_.samples[s].position; }
-
-  const Creases& creases_;
-  Points positions_;
-};
 
 /// An edge that runs across a crease, by the half-edge of lower index.
 struct Crossing {
@@ -286,43 +245,6 @@ AlignedMesh align_to_creases(const PointsRef& vertices, const FacesRef& faces, c
   if (fixed.size() > 0) require_rows(fixed, vertices.rows(), "fixed");
   if (creases.samples.empty() || faces.rows() == 0) return {vertices, faces};
   return Alignment(vertices, faces, creases, fixed).run();
-}
-
-Edges crease_edges(const PointsRef& vertices, const FacesRef& faces, const Creases& creases) {
-  require_mesh(vertices, faces);
-  if (creases.samples.empty() || faces.rows() == 0) return Edges(0, 2);
-  const CreasesNearby nearby(creases);
-  const FlippableMesh mesh(faces, vertices.rows());
-  const auto at = [&](Index v) { return Vector(vertices.row(v)); };
-  const auto normal = [&](Index h) {
-    return area_vector(at(mesh.source(h)), at(mesh.target(h)), at(mesh.apex(h))).normalized();
-  };
-  std::vector<Index> sharp;
-  for (Index h = 0; h < mesh.halfedges(); ++h) {
-    const Index o = mesh.opposite(h);
-    if (o > h && normal(h).dot(normal(o)) < cosine_of(kSharp)) sharp.push_back(h);
-  }
-  Points middles(static_cast<Index>(sharp.size()), 3);
-  for (std::size_t e = 0; e < sharp.size(); ++e) {
-    middles.row(static_cast<Index>(e)) = (at(mesh.source(sharp[e])) + at(mesh.target(sharp[e]))) / 2;
-  }
-  const Neighbors near = nearby.near(middles);
-  std::vector<Index> along;
-  for (std::size_t e = 0; e < sharp.size(); ++e) {
-    const Vector middle = middles.row(static_cast<Index>(e)), edge = at(mesh.target(sharp[e])) - middle;
-    const auto holds = [&](Index s) {
-      return s >= 0 && nearby.covers(s, middle) && nearby.distance(s, middle) <= kOff * nearby.spacing(s) &&
-             std::abs(nearby.direction(s).dot(edge)) >= cosine_of(kTurned) * edge.norm();
-    };
-    if (std::any_of(near.row(static_cast<Index>(e)).begin(), near.row(static_cast<Index>(e)).end(), holds)) {
-      along.push_back(sharp[e]);
-    }
-  }
-  Edges edges(static_cast<Index>(along.size()), 2);
-  for (std::size_t e = 0; e < along.size(); ++e) {
-    edges.row(static_cast<Index>(e)) << mesh.source(along[e]), mesh.target(along[e]);
-  }
-  return edges;
 }
 
 }  // namespace hdpea

@@ -29,11 +29,4 @@ struct AlignedMesh {
 AlignedMesh align_to_creases(const PointsRef& vertices, const FacesRef& faces, const Creases& creases,
                              const MaskRef& fixed = Mask());
 
-/// The edges of a mesh that run along creases, with 30 degrees or more between their faces.
-///
-/// @param faces  (f, 3) edge- and vertex-manifold, oriented
-/// @returns (k, 2) vertices
-/// @throws InvalidArgument on a broken contract
-Edges crease_edges(const PointsRef& vertices, const FacesRef& faces, const Creases& creases);
-
 }  // namespace hdpea

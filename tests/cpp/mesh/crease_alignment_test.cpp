@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "hdpea_cpp/base/errors.hpp"
+#include "hdpea_cpp/mesh/crease_edges.hpp"
 #include "hdpea_cpp/mesh/mesh_check.hpp"
 #include "helpers/shapes.hpp"
 
