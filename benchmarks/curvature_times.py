@@ -21,7 +21,7 @@ import click
 import numpy as np
 
 from hdpea.reading import read_points
-from hdpea.writing.meshes import point_ply
+from hdpea.writing.points import point_ply
 
 SHAPES = Path(__file__).resolve().parent.parent / "examples" / "shapes.py"
 

@@ -16,7 +16,7 @@ from hdpea.geometry.triangles import area_vectors
 from hdpea.geometry.unit_frame import UnitFrame
 from hdpea.options import CleaningOptions, DenoisingOptions, NormalOptions
 from hdpea.reading import read_points
-from hdpea.reading.cloud import cleaned
+from hdpea.reading.cleaning import cleaned
 from hdpea.surface.preparation import prepare_surface
 
 Array = NDArray[np.float64]

@@ -34,7 +34,7 @@ from hdpea.options.position import Position
 from hdpea.pictures.camera import choose_view_of_points
 from hdpea.pictures.picture import DOTS, FRONT, drawn_to, look_at, point_size
 from hdpea.reading import read_points
-from hdpea.reading.cloud import cleaned
+from hdpea.reading.cleaning import cleaned
 from hdpea.surface.normals import oriented_surface
 
 Array = NDArray[np.float64]

@@ -13,7 +13,7 @@ from hdpea.mesh.texture import require_colors
 from hdpea.options import Classes, EmbeddingOptions, Length, Options
 from hdpea.options.settings import changed
 from hdpea.pipeline import reconstruct_cloud
-from hdpea.reading.cloud import cleaned_cloud
+from hdpea.reading.cleaning import cleaned_cloud
 from hdpea.reading.objects import PointsLike
 from hdpea.result import Reconstruction
 from hdpea.runtime.progress import ProgressCallback

@@ -17,7 +17,8 @@ from hdpea import reconstruct
 from hdpea.errors import CannotReconstruct, Interrupted, UnreadableInput, UsageError
 from hdpea.mesh.particles import Particles, spread_particles
 from hdpea.options import DenoisingOptions, Length, MeshingOptions, Options
-from hdpea.reading.cloud import cleaned, from_arrays
+from hdpea.reading.cleaning import cleaned
+from hdpea.reading.cloud import from_arrays
 from hdpea.reconstruction import PHASES
 from hdpea.runtime.progress import ProgressCallback
 

@@ -20,7 +20,7 @@ from hdpea.dataset.sample_generation import draw_points
 from hdpea.geometry.triangles import TriangleMesh
 from hdpea.geometry.unit_frame import UnitFrame
 from hdpea.runtime.outputs import replacing
-from hdpea.writing.meshes import point_ply
+from hdpea.writing.points import point_ply
 
 Rows = NDArray[np.float64]
 

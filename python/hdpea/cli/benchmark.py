@@ -7,7 +7,9 @@ from pathlib import Path
 
 import click
 
-from hdpea.cli.parameters import PATH, GroupedCommand, GroupedOption, quiet_option
+from hdpea.cli.groups import GroupedCommand, GroupedOption
+from hdpea.cli.parameters import quiet_option
+from hdpea.cli.types import PATH
 from hdpea.errors import QualityMissed, UsageError
 
 EPILOG = """\b

@@ -9,7 +9,8 @@ from typing import Any
 
 import click
 
-from hdpea.cli.parameters import PATH, GroupedOption
+from hdpea.cli.groups import GroupedOption
+from hdpea.cli.types import PATH
 from hdpea.errors import UsageError
 from hdpea.options.settings import settings
 

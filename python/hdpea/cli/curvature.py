@@ -10,7 +10,9 @@ from typing import Any
 import click
 
 from hdpea.cli.destinations import require_no_scan
-from hdpea.cli.parameters import PATH, GroupedCommand, GroupedOption, force_option, quiet_option, setting_options
+from hdpea.cli.groups import GroupedCommand, GroupedOption
+from hdpea.cli.parameters import force_option, quiet_option, setting_options
+from hdpea.cli.types import PATH
 from hdpea.curvature.options import CurvatureOptions
 from hdpea.options.settings import filled
 from hdpea.runtime.marks import check_replaceable

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from hdpea.cli.parameters import PATH
+from hdpea.cli.types import PATH
 from hdpea.errors import HdpeaError, UsageError
 from hdpea.runtime.marks import is_marked
 from hdpea.runtime.names import nearest_name

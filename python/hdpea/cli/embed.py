@@ -12,15 +12,9 @@ import click
 
 from hdpea.cli.config import config_of, config_option
 from hdpea.cli.destinations import require_no_scan
-from hdpea.cli.parameters import (
-    PATH,
-    GroupedCommand,
-    GroupedOption,
-    chosen_options,
-    force_option,
-    quiet_option,
-    setting_options,
-)
+from hdpea.cli.groups import GroupedCommand, GroupedOption
+from hdpea.cli.parameters import chosen_options, force_option, quiet_option, setting_options
+from hdpea.cli.types import PATH
 
 EPILOG = """\b
 Examples:
@@ -55,7 +49,7 @@ def command(
     from hdpea.runtime.marks import check_replaceable
     from hdpea.runtime.outputs import check_distinct, check_output
     from hdpea.runtime.progress import shown, tell
-    from hdpea.writing.meshes import POINT_FORMATS, write_points
+    from hdpea.writing.points import POINT_FORMATS, write_points
 
     check_output(output, POINT_FORMATS)
     check_distinct([source, options.embedding.weights, config_of(ctx)], [output])

@@ -9,7 +9,9 @@ from typing import Any
 
 import click
 
-from hdpea.cli.parameters import PATH, GroupedCommand, setting_options
+from hdpea.cli.groups import GroupedCommand
+from hdpea.cli.parameters import setting_options
+from hdpea.cli.types import PATH
 from hdpea.evaluation.options import EvaluationOptions
 
 EPILOG = """\b

@@ -11,7 +11,8 @@ from typing import TYPE_CHECKING
 
 import click
 
-from hdpea.cli.parameters import GroupedCommand, GroupedOption, setting_options
+from hdpea.cli.groups import GroupedCommand, GroupedOption
+from hdpea.cli.parameters import setting_options
 from hdpea.cli.tiles import MemoryType, Resources
 from hdpea.errors import UsageError
 

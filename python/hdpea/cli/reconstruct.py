@@ -15,19 +15,11 @@ import click
 
 from hdpea.cli.config import config_of, config_option
 from hdpea.cli.destinations import FORMATS, destinations, require_no_scan
+from hdpea.cli.groups import GroupedCommand, GroupedOption, in_flags
 from hdpea.cli.job import Ended, Job, make_mesh, missed, remarks
-from hdpea.cli.parameters import (
-    PATH,
-    GroupedCommand,
-    GroupedOption,
-    chosen_options,
-    force_option,
-    in_flags,
-    quiet_option,
-    setting_options,
-    up_option,
-)
+from hdpea.cli.parameters import chosen_options, force_option, quiet_option, setting_options, up_option
 from hdpea.cli.tiles import MemoryType, Resources
+from hdpea.cli.types import PATH
 from hdpea.errors import HdpeaError, UsageError
 from hdpea.runtime.marks import check_replaceable, is_marked
 from hdpea.runtime.outputs import check_distinct, check_output
@@ -172,7 +164,8 @@ def _without_own(files: Sequence[str], quiet: bool) -> tuple[str, ...]:
 def _check_outputs(wanted: Sequence[Job], read: Sequence[Path | str | None], force: bool) -> None:
     from hdpea.pages.page import PAGE_FORMATS
     from hdpea.pictures.picture import PICTURE_FORMATS, check_drawing
-    from hdpea.writing.meshes import MESH_FORMATS, POINT_FORMATS
+    from hdpea.writing.meshes import MESH_FORMATS
+    from hdpea.writing.points import POINT_FORMATS
 
     formats = {
         "mesh": MESH_FORMATS,

@@ -11,7 +11,9 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from hdpea.cli.parameters import PATH, GroupedCommand, GroupedOption, force_option, up_option
+from hdpea.cli.groups import GroupedCommand, GroupedOption
+from hdpea.cli.parameters import force_option, up_option
+from hdpea.cli.types import PATH
 from hdpea.errors import UnreadableInput
 from hdpea.runtime.marks import check_replaceable
 from hdpea.runtime.outputs import check_distinct, check_output

@@ -29,7 +29,8 @@ from hdpea.geometry.thinning import thinned
 from hdpea.options import NormalOptions
 from hdpea.options.choice import Choice
 from hdpea.options.meshing import POINTS_PER_VERTEX
-from hdpea.reading.cloud import PointCloud, cleaned_cloud
+from hdpea.reading.cleaning import cleaned_cloud
+from hdpea.reading.cloud import PointCloud
 from hdpea.reading.objects import PointsLike
 from hdpea.runtime.progress import ProgressCallback, tell
 from hdpea.runtime.threads import limited_threads

@@ -15,7 +15,7 @@ from hdpea.curvature.tensors import CurvatureTensors
 from hdpea.errors import UsageError
 from hdpea.runtime.outputs import check_output, replacing
 from hdpea.writing.marking import marked, save_arrays
-from hdpea.writing.meshes import point_ply
+from hdpea.writing.points import point_ply
 
 UPPER = np.triu_indices(3)
 """Of a metric tensor, which is symmetric: xx, xy, xz, yy, yz, zz."""

@@ -8,7 +8,7 @@ from pathlib import Path
 from hdpea.dataset.scan import Scan
 from hdpea.geometry.unit_frame import UnitFrame
 from hdpea.runtime.outputs import check_output, replacing
-from hdpea.writing.meshes import point_ply
+from hdpea.writing.points import point_ply
 
 SENSOR_NAMES = ("sensor_x", "sensor_y", "sensor_z")
 

@@ -22,7 +22,7 @@ from hdpea.frontend.cleaning import surface_cloud
 from hdpea.geometry.unit_frame import UnitFrame
 from hdpea.options import EmbeddingOptions, Options
 from hdpea.options.choice import Choice
-from hdpea.reading.cloud import cleaned_cloud
+from hdpea.reading.cleaning import cleaned_cloud
 from hdpea.reading.objects import PointsLike
 from hdpea.runtime.progress import PhaseCallback, ProgressCallback, of_phase, tell
 from hdpea.runtime.threads import limited_threads

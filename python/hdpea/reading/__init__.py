@@ -8,7 +8,8 @@ from collections.abc import Sequence
 from pathlib import Path, PurePath
 
 from hdpea.errors import UnreadableInput
-from hdpea.reading.cloud import PointCloud, cleaned, require_points
+from hdpea.reading.cleaning import cleaned, require_points
+from hdpea.reading.cloud import PointCloud
 from hdpea.reading.formats import CLOUD_FORMATS, DAMAGE, parse_points
 from hdpea.reading.merging import merged
 from hdpea.runtime.names import nearest_name

@@ -8,7 +8,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from hdpea.reading.cloud import PointCloud, cleaned
+from hdpea.reading.cleaning import cleaned
+from hdpea.reading.cloud import PointCloud
 from hdpea.reading.streaming import PointStream
 from hdpea.report.cost import PEAK_BYTES, seconds_of_run
 from hdpea.report.inspection import CloudFacts, inspect

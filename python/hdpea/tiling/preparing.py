@@ -11,7 +11,7 @@ from hdpea.embedding import embed_surface
 from hdpea.frontend.cleaning import surface_cloud
 from hdpea.options.embedding import BENDING_LENGTH, CURVATURE_RADIUS
 from hdpea.options.lengths import Length
-from hdpea.reading.cloud import cleaned
+from hdpea.reading.cleaning import cleaned
 from hdpea.surface.preparation import prepare_surface
 from hdpea.surface.surface import area_shown, areas_shown
 from hdpea.tiling.folder import Arrays

@@ -1,16 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Meshes and embedded points to files, without losing a digit the format can hold."""
+"""Meshes to files, without losing a digit the format can hold."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from pathlib import Path
-from typing import Any
 
 import numpy as np
-from numpy.lib.recfunctions import repack_fields
 from numpy.typing import ArrayLike, NDArray
-from plyfile import PlyData, PlyElement
 
 from hdpea.errors import UsageError
 from hdpea.geometry.texture import Texture
@@ -20,9 +17,10 @@ from hdpea.runtime.outputs import check_output, replacing
 from hdpea.writing.attributes import colors_of, columns_of
 from hdpea.writing.content import MeshContent
 from hdpea.writing.glb import glb
-from hdpea.writing.marking import marked, save_arrays
+from hdpea.writing.marking import marked
 from hdpea.writing.obj import lines, obj, png, write_texture_files
 from hdpea.writing.placement import Placement, loses_digits, write_placement
+from hdpea.writing.ply import mesh_ply
 
 Points = NDArray[np.float64]
 Faces = NDArray[np.int64]
@@ -151,82 +149,9 @@ def _checked(vertices: ArrayLike, faces: ArrayLike) -> tuple[Points, Faces]:
     return rows.astype(np.float64), corners.astype(np.int64)
 
 
-def write_points(
-    path: Path, points: Points, normals: Points, coordinates: Points, point_index: NDArray[np.int64]
-) -> None:
-    """Write embedded points as NPZ (arrays of these names) or PLY (embedding_0 to embedding_7, point_index).
-
-    Parameters
-    ----------
-    path
-        Replaced only once the new file is complete.
-    points, normals
-        (n, 3) float64.
-    coordinates
-        (n, 8) float64, the embedding.
-    point_index
-        (n,) int64, which of the points of the input they are.
-
-    Raises
-    ------
-    UsageError
-        If the file cannot be written.
-    """
-    check_output(path, POINT_FORMATS)
-    with replacing(path) as partial:
-        if path.suffix.lower() == ".npz":
-            arrays = {"points": points, "normals": normals, "coordinates": coordinates, "point_index": point_index}
-            save_arrays(partial, "embedding", **arrays)
-        else:
-            others = {"embedding": coordinates, "point_index": point_index}
-            partial.write_bytes(point_ply(points, normals, others, "embedding"))
-
-
-def point_ply(
-    points: Points,
-    normals: Points | None,
-    others: Mapping[str, NDArray[Any]],
-    kind: str = "scan",
-    comments: Sequence[str] = (),
-) -> bytes:
-    """Return the content of a PLY file of points (n, 3), their normals (n, 3) if any, and others, (n,) or (n, c).
-
-    Points and normals are written as doubles, others as the attributes of meshes. It is marked as `kind`.
-    """
-    columns: dict[str, NDArray[Any]] = dict(zip("xyz", points.T, strict=True))
-    if normals is not None:
-        columns |= zip(("nx", "ny", "nz"), normals.T, strict=True)
-    columns |= columns_of(others, len(points))
-    table = np.empty(len(points), [(name, column.dtype.newbyteorder("<")) for name, column in columns.items()])
-    for name, column in columns.items():
-        table[name] = column
-    return marked(_ply(table, comments=comments), ".ply", kind)
-
-
 def _off(mesh: MeshContent) -> bytes:
     head = f"OFF\n{len(mesh.vertices)} {len(mesh.faces)} 0\n".encode()
     return head + lines(mesh.vertices) + lines(mesh.faces, "3 ")
-
-
-def _ply(vertex: NDArray[np.void], faces: Faces | None = None, comments: Sequence[str] = ()) -> bytes:
-    elements, body = [PlyElement.describe(vertex, "vertex")], vertex.tobytes()
-    if faces is not None:
-        # The library writes lists one by one; every list here is three long, which makes it a table.
-        table = np.empty(len(faces), [("count", "u1"), ("vertex_indices", "<i4", 3)])
-        table["count"], table["vertex_indices"] = 3, faces
-        body += table.tobytes()
-        elements.append(PlyElement.describe(repack_fields(table[["vertex_indices"]]), "face"))
-    header: str = PlyData(elements, byte_order="<", comments=list(comments)).header
-    return f"{header}\n".encode() + body
-
-
-def _mesh_ply(mesh: MeshContent) -> bytes:
-    others = [(name, column.dtype) for name, column in mesh.columns.items()]
-    table = np.empty(len(mesh.vertices), [*((axis, np.dtype("<f8")) for axis in "xyz"), *others])
-    table["x"], table["y"], table["z"] = mesh.vertices.T
-    for name, column in mesh.columns.items():
-        table[name] = column
-    return _ply(table, mesh.faces)
 
 
 def _stl(content: MeshContent) -> bytes:
@@ -249,9 +174,8 @@ def _glb(mesh: MeshContent) -> bytes:
 
 MESH_FORMATS: dict[str, Callable[[MeshContent], bytes]] = {
     ".obj": obj,
-    ".ply": _mesh_ply,
+    ".ply": mesh_ply,
     ".off": _off,
     ".stl": _stl,
     ".glb": _glb,
 }
-POINT_FORMATS = (".npz", ".ply")

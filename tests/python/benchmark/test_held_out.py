@@ -24,7 +24,7 @@ from hdpea.dataset.options import DegradationOptions, SampleOptions, ScanOptions
 from hdpea.dataset.sources import Source
 from hdpea.errors import CannotReconstruct, UsageError
 from hdpea.reading.cloud import PointCloud
-from hdpea.writing.meshes import point_ply
+from hdpea.writing.points import point_ply
 
 Array = NDArray[np.float64]
 

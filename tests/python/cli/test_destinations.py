@@ -19,8 +19,8 @@ from hdpea.cli.job import Ended
 from hdpea.errors import CannotReconstruct, HdpeaError, QualityMissed, UnreadableInput, UsageError
 from hdpea.reading import read_points
 from hdpea.runtime.marks import is_marked
-from hdpea.writing.meshes import MESH_FORMATS, point_ply, write_mesh
-from hdpea.writing.points import write_dropped
+from hdpea.writing.meshes import MESH_FORMATS, write_mesh
+from hdpea.writing.points import point_ply, write_dropped
 
 Capture = pytest.CaptureFixture[str]
 

@@ -10,7 +10,7 @@ import pytest
 from helpers.files import WITH_NORMALS
 
 from hdpea.cli import run
-from hdpea.cli.parameters import with_flags
+from hdpea.cli.groups import with_flags
 
 Capture = pytest.CaptureFixture[str]
 

@@ -7,7 +7,7 @@ import pytest
 from hdpea import reconstruct
 from hdpea.frontend.cleaning import surface_cloud
 from hdpea.frontend.crowds import crowd_means
-from hdpea.reading.cloud import cleaned_cloud
+from hdpea.reading.cleaning import cleaned_cloud
 
 
 def _seen_ten_times(noise: float) -> np.ndarray:

@@ -10,7 +10,8 @@ from helpers.clouds import Array, sphere_points
 from hdpea.frontend.cleaning import surface_cloud
 from hdpea.frontend.precision import precision_note
 from hdpea.options import CleaningOptions
-from hdpea.reading.cloud import PointCloud, cleaned
+from hdpea.reading.cleaning import cleaned
+from hdpea.reading.cloud import PointCloud
 
 FAR = 500_000.0
 """Where 32-bit numbers have steps of 1/32."""

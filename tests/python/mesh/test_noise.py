@@ -10,7 +10,7 @@ from hdpea import Reconstruction, reconstruct
 from hdpea.geometry.sampling import sample_surface
 from hdpea.mesh.noise import within_noise
 from hdpea.options import DenoisingOptions, MeshingOptions, Options
-from hdpea.reading.cloud import cleaned_cloud
+from hdpea.reading.cleaning import cleaned_cloud
 from hdpea.surface.preparation import prepare_surface
 
 POINTS = 5000

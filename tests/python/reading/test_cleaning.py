@@ -12,7 +12,8 @@ from hypothesis.extra import numpy as st_numpy
 from numpy.typing import NDArray
 
 from hdpea.errors import UnreadableInput
-from hdpea.reading.cloud import PointCloud, cleaned, first_occurrences, unit_or_zero
+from hdpea.reading.cleaning import cleaned, first_occurrences, unit_or_zero
+from hdpea.reading.cloud import PointCloud
 
 
 def test_points_that_are_not_finite_are_dropped_and_counted() -> None:

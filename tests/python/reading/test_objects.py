@@ -18,7 +18,7 @@ from helpers.clouds import sphere_points
 from hdpea import Reconstruction, reconstruct
 from hdpea.errors import UsageError
 from hdpea.reading.attributes import split_colors
-from hdpea.reading.cloud import cleaned_cloud
+from hdpea.reading.cleaning import cleaned_cloud
 
 POINTS = sphere_points(600)
 COLORS = np.rint(255 * abs(POINTS)).astype(np.uint8)

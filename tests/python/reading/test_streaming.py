@@ -8,7 +8,7 @@ import pytest
 from helpers import files, scanner_files
 
 from hdpea.reading import read_points, streaming
-from hdpea.reading.cloud import cleaned
+from hdpea.reading.cleaning import cleaned
 from hdpea.reading.streaming import PointStream, stream_of, stream_of_cloud
 
 

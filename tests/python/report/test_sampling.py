@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 from helpers import clouds
 
-from hdpea.reading.cloud import PointCloud, cleaned
+from hdpea.reading.cleaning import cleaned
+from hdpea.reading.cloud import PointCloud
 from hdpea.reading.streaming import stream_of_cloud
 from hdpea.report import sampling
 from hdpea.report.inspection import inspect

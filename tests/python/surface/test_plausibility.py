@@ -8,7 +8,7 @@ import pytest
 from helpers import clouds
 
 from hdpea.options import NormalOptions
-from hdpea.reading.cloud import cleaned_cloud
+from hdpea.reading.cleaning import cleaned_cloud
 from hdpea.surface.normals import oriented_surface
 from hdpea.surface.plausibility import are_normals
 from hdpea.surface.preparation import prepare_surface

@@ -19,7 +19,8 @@ from numpy.typing import NDArray
 from hdpea.errors import UsageError
 from hdpea.reading import read_points
 from hdpea.reading.triangle_mesh import parse_triangle_mesh
-from hdpea.writing.meshes import MESH_FORMATS, write_mesh, write_points
+from hdpea.writing.meshes import MESH_FORMATS, write_mesh
+from hdpea.writing.points import write_points
 
 EXACT_FORMATS = (".obj", ".ply", ".off")
 coordinates = st_numpy.arrays(np.float64, (4, 3), elements=st.floats(-1e12, 1e12), unique=True)

@@ -12,7 +12,7 @@ from hdpea.benchmark.methods.options import CommandOptions
 from hdpea.errors import CannotReconstruct, UsageError
 from hdpea.geometry.triangles import TriangleMesh
 from hdpea.reading.triangle_mesh import read_triangle_mesh
-from hdpea.writing.meshes import point_ply
+from hdpea.writing.points import point_ply
 
 
 def reconstruct(cloud: Cloud, vertices: int, options: CommandOptions) -> TriangleMesh:

@@ -9,7 +9,9 @@ from typing import TYPE_CHECKING, Any
 import click
 from click.core import ParameterSource
 
-from hdpea.cli.parameters import PATH, GroupedCommand, GroupedOption, quiet_option, setting_options
+from hdpea.cli.groups import GroupedCommand, GroupedOption
+from hdpea.cli.parameters import quiet_option, setting_options
+from hdpea.cli.types import PATH
 from hdpea.dataset.options import DatasetOptions
 from hdpea.errors import UsageError
 

@@ -9,7 +9,9 @@ from typing import Any
 
 import click
 
-from hdpea.cli.parameters import PATH, GroupedCommand, force_option, setting_options
+from hdpea.cli.groups import GroupedCommand
+from hdpea.cli.parameters import force_option, setting_options
+from hdpea.cli.types import PATH
 from hdpea.dataset.options import DegradationOptions
 
 EPILOG = """\b

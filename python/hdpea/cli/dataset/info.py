@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING
 
 import click
 
-from hdpea.cli.parameters import PATH, GroupedCommand
+from hdpea.cli.groups import GroupedCommand
+from hdpea.cli.types import PATH
 
 if TYPE_CHECKING:
     from hdpea.dataset.loading import Dataset

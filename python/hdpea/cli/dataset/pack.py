@@ -7,7 +7,9 @@ from pathlib import Path
 
 import click
 
-from hdpea.cli.parameters import PATH, GroupedCommand, force_option
+from hdpea.cli.groups import GroupedCommand
+from hdpea.cli.parameters import force_option
+from hdpea.cli.types import PATH
 from hdpea.errors import UsageError
 
 EPILOG = """\b

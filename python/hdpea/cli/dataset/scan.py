@@ -9,7 +9,9 @@ from typing import Any
 
 import click
 
-from hdpea.cli.parameters import PATH, GroupedCommand, force_option, quiet_option, setting_options
+from hdpea.cli.groups import GroupedCommand
+from hdpea.cli.parameters import force_option, quiet_option, setting_options
+from hdpea.cli.types import PATH
 from hdpea.dataset.options import DatasetOptions
 
 EPILOG = """\b
@@ -46,7 +48,7 @@ def command(mesh: Path, output: Path, force: bool, quiet: bool, **values: Any) -
     from hdpea.runtime.marks import check_replaceable
     from hdpea.runtime.outputs import check_distinct, check_output
     from hdpea.runtime.progress import shown, tell
-    from hdpea.writing.meshes import POINT_FORMATS
+    from hdpea.writing.points import POINT_FORMATS
 
     options = filled(DatasetOptions, values)
     check_output(output, POINT_FORMATS)

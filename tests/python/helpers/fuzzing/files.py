@@ -12,7 +12,7 @@ from helpers.scanner_files import FILES
 
 from hdpea.errors import UnreadableInput
 from hdpea.reading import parse_points
-from hdpea.reading.cloud import cleaned
+from hdpea.reading.cleaning import cleaned
 
 Random = np.random.Generator
 
