@@ -17,8 +17,8 @@ from hdpea.mesh.error_bound import ErrorBound
 from hdpea.mesh.extraction import Mesh
 from hdpea.options import MeshingOptions
 from hdpea.report.agreement import Agreement, agreement_of, distances_to
+from hdpea.report.facts import Distances, HeightDifferences, LevelFacts, MeshFacts
 from hdpea.report.heights import height_differences, is_height_field
-from hdpea.report.report import Distances, HeightDifferences, LevelFacts, MeshFacts
 from hdpea.surface.preparation import Preparation
 
 HARDLY_SHOWN = 0.01

@@ -7,7 +7,8 @@ from collections.abc import Iterator
 
 from hdpea.options.choice import Choice
 from hdpea.report.achieved_error import AchievedError
-from hdpea.report.report import Distances, HeightDifferences, MeshFacts, Report
+from hdpea.report.facts import Distances, HeightDifferences, MeshFacts
+from hdpea.report.report import Report
 
 MUCH_FILLED = 0.005
 """Share of the area from which on it is said that holes were filled: less is what cells leave open between points."""

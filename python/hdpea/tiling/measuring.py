@@ -12,8 +12,8 @@ from hdpea.mesh.error_bound import PLACES, ErrorBound
 from hdpea.mesh.extraction import Mesh
 from hdpea.report.achieved_error import AchievedError
 from hdpea.report.agreement import Agreement, agreement_of, distances_to
+from hdpea.report.facts import Distances, HeightDifferences
 from hdpea.report.heights import height_differences, is_height_field
-from hdpea.report.report import Distances, HeightDifferences
 from hdpea.tiling.work import Agreed, Work, surface_of
 
 BEYOND = 1.5

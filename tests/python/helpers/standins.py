@@ -16,7 +16,8 @@ from hdpea.options.choice import Choice
 from hdpea.reading.cloud import PointCloud
 from hdpea.report.achieved_error import AchievedError
 from hdpea.report.agreement import Agreement
-from hdpea.report.report import Distances, Journal, MeshFacts, Report
+from hdpea.report.facts import Distances, MeshFacts
+from hdpea.report.report import Journal, Report
 from hdpea.result import Reconstruction
 from hdpea.runtime.progress import ProgressCallback, tell
 

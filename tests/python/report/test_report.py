@@ -13,8 +13,9 @@ from hdpea.options import Options, ParticleOptions
 from hdpea.options.choice import Choice
 from hdpea.report.achieved_error import AchievedError
 from hdpea.report.agreement import Agreement
+from hdpea.report.facts import Distances, MeshFacts
 from hdpea.report.measurement import Comparison
-from hdpea.report.report import Distances, Journal, MeshFacts, Report
+from hdpea.report.report import Journal, Report
 from hdpea.report.summary import summarize
 
 SPHERE = MeshFacts(
