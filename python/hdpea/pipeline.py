@@ -16,7 +16,7 @@ from hdpea.mesh.attributes import vertex_attributes
 from hdpea.mesh.budget import particles_wanted
 from hdpea.mesh.extraction import Mesh
 from hdpea.mesh.levels import coarser_levels
-from hdpea.mesh.noise import within_noise
+from hdpea.mesh.noise import error_within_noise, within_noise
 from hdpea.mesh.parts import mesh_surface
 from hdpea.mesh.sides import FacedMesh, facing_out
 from hdpea.mesh.texture import texture_of
@@ -171,8 +171,11 @@ def _report(made: _Made, faced: FacedMesh, journal: Journal, progress: ProgressC
     journal.counts |= cloud.counts() | found.counts() | {"normals_estimated": prepared.oriented.estimated}
     journal.choices += [*device_choices(options.embedding.device), *prepared.choices, *made.choices]
     journal.meshing |= mesh.statistics
-    coarse = coarseness(compared.distances, prepared.surface.frame.diagonal, options.meshing)
-    journal.notes += [*cloud.notes, *found.notes, *prepared.notes, *faced.notes, *coarse, *compared.missing_part()]
+    size = [
+        *coarseness(compared.distances, prepared.surface.frame.diagonal, options.meshing),
+        *error_within_noise(options, prepared),
+    ]
+    journal.notes += [*cloud.notes, *found.notes, *prepared.notes, *faced.notes, *size, *compared.missing_part()]
     targets = missed_targets(mesh, facts, options.meshing)
     journal.missed += [*prepared.missed, *targets, *error.missed(), *compared.agreement.missed()]
     return Report.of(journal, facts, compared.distances, compared.agreement, error, compared.along_z)

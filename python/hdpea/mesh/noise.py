@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How many vertices noise allows: what finer triangles would show is noise."""
+"""How many vertices noise allows, and which error: what finer triangles would show is noise."""
 
 from __future__ import annotations
 
@@ -14,6 +14,7 @@ from hdpea.options.choice import Choice
 from hdpea.options.denoising import ROUGH
 from hdpea.options.meshing import POINTS_PER_VERTEX
 from hdpea.surface.preparation import Preparation
+from hdpea.surface.surface import area_shown
 
 MISSED = 0.5
 """Variance that wider planes may miss, for each that noise leaves at a vertex.
@@ -32,6 +33,12 @@ outliers was given one for every 128, and its error grew by 7 %."""
 
 PLANE = 2
 """Points of a plane for each point per vertex: on a sphere a plane through 1.25 misses as much as triangles do."""
+
+DEVIATIONS = 3.5
+"""Standard deviations of the noise that an error leaves room for, or the mesh follows the noise.
+
+639,349 points of terrain with noise of 2.6 cm are shown by 2,659 triangles within 10 cm, by 6,302 within 9, by 16,033
+within 8 and by 133,966 within 6."""
 
 
 def within_noise(options: Options, prepared: Preparation, points_shown: int) -> tuple[Options, tuple[Choice, ...]]:
@@ -66,6 +73,19 @@ def within_noise(options: Options, prepared: Preparation, points_shown: int) -> 
     why = f"one for every {per_vertex} points: finer triangles would show their noise, {noise:.2g} spacings"
     chosen = replace(options, meshing=replace(options.meshing, vertices=vertices))
     return chosen, (Choice("vertices", vertices, "", why),)
+
+
+def error_within_noise(options: Options, prepared: Preparation) -> tuple[str, ...]:
+    """Return a sentence for the user if an error is asked for that leaves no room for the noise."""
+    error, surface, roughness = options.meshing.error, prepared.surface, prepared.oriented.roughness
+    if error is None or prepared.denoised:
+        return ()
+    spacing = np.sqrt(area_shown(surface.points_in_unit, surface.neighbors) / len(surface.points_in_unit))
+    least = DEVIATIONS * roughness.noise * float(spacing)
+    if surface.frame.length_to_unit(error) >= least:
+        return ()
+    told = f"The `error` is less than {least * surface.frame.diagonal:.2g}, which the noise of the points needs"
+    return (f"{told}: the mesh follows the noise, with many triangles.",)
 
 
 def _missed_by_planes(prepared: Preparation, per_vertex: int) -> float:

@@ -4,12 +4,13 @@
 from __future__ import annotations
 
 import numpy as np
+import pytest
 from helpers import clouds
 
 from hdpea import Reconstruction, reconstruct
 from hdpea.geometry.sampling import sample_surface
-from hdpea.mesh.noise import within_noise
-from hdpea.options import DenoisingOptions, MeshingOptions, Options
+from hdpea.mesh.noise import error_within_noise, within_noise
+from hdpea.options import DenoisingOptions, Length, MeshingOptions, Options
 from hdpea.reading.cleaning import cleaned_cloud
 from hdpea.surface.preparation import prepare_surface
 
@@ -57,3 +58,12 @@ def test_a_noisy_sphere_is_as_near_to_the_truth_with_the_fewer_vertices() -> Non
     assert len(few.vertices) < 0.6 * len(many.vertices)
     assert any(choice.name == "vertices" for choice in few.report.choices)
     assert error_of(few) <= 1.05 * error_of(many)
+
+
+@pytest.mark.parametrize(("deviations", "told"), [(2.0, True), (4.0, False)])
+def test_an_error_within_the_noise_is_told(deviations: float, told: bool) -> None:
+    noise = 0.15  # in spacings, so little that nothing is denoised
+    prepared = prepare_surface(cleaned_cloud(wall(noise)), denoising=DenoisingOptions())
+    options = Options(meshing=MeshingOptions(error=Length(deviations * noise / np.sqrt(POINTS))))
+    assert bool(error_within_noise(options, prepared)) == told
+    assert not error_within_noise(Options(), prepared)
