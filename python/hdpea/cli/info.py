@@ -14,7 +14,6 @@ import click
 from hdpea.cli.groups import GroupedCommand, GroupedOption
 from hdpea.cli.parameters import setting_options
 from hdpea.cli.tiles import MemoryType, Resources
-from hdpea.errors import UsageError
 
 if TYPE_CHECKING:
     from hdpea.options.classes import Classes
@@ -45,8 +44,8 @@ def command(source: str, as_json: bool, memory: float | None, classes: Classes |
     Lengths are in the units of the file. IN is as for reconstruct. Of a million points and more in
     LAS, LAZ, COPC or binary PLY a sample is looked at.
     """
-    facts = _facts(source, classes)
-    click.echo(json.dumps(asdict(facts), indent=2) if as_json else _describe(facts, Resources(memory)))
+    facts, resources = _facts(source, classes), Resources(memory)
+    click.echo(_as_json(facts, resources) if as_json else _describe(facts, resources))
 
 
 def _facts(source: str, classes: Classes | None) -> CloudFacts:
@@ -63,7 +62,16 @@ def _facts(source: str, classes: Classes | None) -> CloudFacts:
     return inspect_stream(stream if classes is None else stream_of_classes(stream, classes))
 
 
+def _as_json(facts: CloudFacts, resources: Resources) -> str:
+    from hdpea.cli.needs import InTiles
+
+    tiled = InTiles.of(facts, resources) if InTiles.needed(facts, resources) else None
+    return json.dumps({**asdict(facts), "in_tiles": None if tiled is None else asdict(tiled)}, indent=2)
+
+
 def _describe(facts: CloudFacts, resources: Resources) -> str:
+    from hdpea.cli.needs import needs
+
     extent = [high - low for low, high in zip(facts.low, facts.high, strict=True)]
     rows = {
         "format": facts.format,
@@ -76,7 +84,7 @@ def _describe(facts: CloudFacts, resources: Resources) -> str:
         "spacing": _spacing(facts),
         "normals": _normals(facts),
         "crs": crs_name(facts.crs),
-        "a run needs": _needs(facts, resources),
+        "a run needs": needs(facts, resources),
     }
     return "\n".join([*(f"{name:<12}{value}" for name, value in rows.items() if value), *facts.notes])
 
@@ -123,51 +131,3 @@ def _normals(facts: CloudFacts) -> str:
         return f"{usable:,}, which do not lie across the surface: they will be estimated instead"
     fate = "their orientation will be kept" if facts.normals_oriented else "they will be oriented anew"
     return f"{usable:,} usable, {facts.normal_agreement:.1%} of neighbours agree on the side: {fate}"
-
-
-ONE_PIECE = "--error and colours are for one piece: cut a larger cloud yourself"
-
-
-def _needs(facts: CloudFacts, resources: Resources) -> str:
-    from hdpea.report.cost import WITHOUT_NORMALS
-    from hdpea.surface.surface import MIN_POINTS
-
-    points = facts.counts["points"]
-    if points < MIN_POINTS:
-        return f"at least {MIN_POINTS} points"
-    cost = f"about {facts.estimated_seconds:.0f} s and {facts.estimated_peak_bytes / 1e9:.1f} GB"
-    if not (facts.counts["usable_normals"] and facts.normals_fit):
-        cost += f" (up to {WITHOUT_NORMALS * facts.estimated_peak_bytes / 1e9:.1f}, since normals are estimated)"
-    if facts.estimated_peak_bytes > resources.bytes():
-        return f"{_in_tiles(points, facts.default_vertices, resources)}; in one piece {cost}. {ONE_PIECE}"
-    return f"{cost} for {facts.default_vertices:,} vertices, on two idle cores"
-
-
-def _in_tiles(points: int, vertices: int, resources: Resources) -> str:
-    """Return what a cloud of so many points needs in tiles, as many at a time as there is memory for, two at most."""
-    from hdpea.options import Options
-    from hdpea.report.cost import PEAK_BYTES, TILED_DISK_BYTES, TILED_SECONDS, TILED_WHOLE_BYTES
-    from hdpea.tiling.run import Tiling
-
-    tiling = Tiling(Path(), resources.bytes(), jobs=2)
-    try:
-        tile_points, _ = tiling.sizes(Options(), points)
-    except UsageError:
-        return "more memory than that, even in tiles"
-    jobs = tiling.workers(tile_points, points / vertices)
-    each = PEAK_BYTES.of(tile_points, round(tile_points * vertices / points))
-    whole = TILED_WHOLE_BYTES.of(points, vertices)
-    return (
-        f"about {TILED_SECONDS * points:.0f} s in tiles with --jobs {jobs}, {each / 1e9:.1f} GB in each "
-        f"process, {whole / 1e9:.1f} GB in the end for the whole mesh{_fewer(whole, resources)}, and "
-        f"{TILED_DISK_BYTES * points / 1e9:.1f} GB of the disk, for {vertices:,} vertices"
-    )
-
-
-def _fewer(whole: float, resources: Resources) -> str:
-    """Return for how many vertices there is memory in the end, if not for as many as take `whole` bytes."""
-    from hdpea.report.cost import tiled_vertices_within
-
-    memory = resources.bytes()
-    thousands = tiled_vertices_within(memory) // 1000
-    return f" ({memory / 1e9:.1f} GB with --vertices {thousands}000)" if whole > memory and thousands else ""

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import json
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -14,6 +15,10 @@ from helpers.files import WITH_NORMALS
 
 from hdpea.cli import run
 from hdpea.cli.info import crs_name
+from hdpea.cli.needs import InTiles
+from hdpea.cli.tiles import Resources
+from hdpea.reading.cloud import PointCloud
+from hdpea.report.inspection import inspect
 
 Capture = pytest.CaptureFixture[str]
 
@@ -76,6 +81,20 @@ def test_info_as_json(tmp_path: Path, capsys: Capture) -> None:
     assert facts["diagonal"] == pytest.approx(12**0.5, rel=0.05)
     assert 0.02 < facts["spacing"] < 0.1
     assert facts["estimated_seconds"] > 0
+    assert facts["in_tiles"] is None
+
+
+@pytest.mark.parametrize(("memory", "jobs"), [(2e9, 1), (8e9, 2)])
+def test_what_tiles_need_fits_into_the_memory(memory: float, jobs: int) -> None:
+    facts = inspect(PointCloud(sphere_points(500), None, {}))
+    large = replace(facts, counts={**facts.counts, "points": 10**7}, default_vertices=10**5, estimated_peak_bytes=25e9)
+    resources = Resources(memory)
+    tiled = InTiles.of(large, resources)
+    assert InTiles.needed(large, resources)
+    assert not InTiles.needed(facts, resources)
+    assert tiled is not None
+    assert tiled.jobs == jobs
+    assert jobs * tiled.process_bytes < memory
 
 
 def test_info_of_a_single_point(tmp_path: Path, capsys: Capture) -> None:
