@@ -9,7 +9,8 @@ from contextlib import closing
 from dataclasses import replace
 from pathlib import Path
 
-from hdpea.cli.job import Ended, Job, attempt
+from hdpea.cli.ended import Ended
+from hdpea.cli.job import Job, attempt
 from hdpea.errors import CannotReconstruct, HdpeaError, QualityMissed, UnreadableInput, UsageError
 from hdpea.options.settings import as_dict
 from hdpea.runtime.outputs import unfinished_folder

@@ -3,14 +3,14 @@
 
 from __future__ import annotations
 
-import json
 import sys
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from hdpea.cli.destinations import Destination
+from hdpea.cli.ended import Ended
 from hdpea.cli.tiles import Resources, stream_beyond
 from hdpea.errors import HdpeaError, QualityMissed, UsageError, core_errors_translated
 from hdpea.options import Options
@@ -56,51 +56,6 @@ class Job:
             *((placement_file(path), "placement") for path in meshes),
             *((path, kind) for kind, path in kinds.items() if path is not None),
         ]
-
-
-@dataclass(frozen=True)
-class Ended:
-    """What became of a job: the report, if there is a mesh, and the error, if there was one."""
-
-    sources: tuple[str, ...]
-    output: str
-    report: dict[str, Any] | None = None
-    summary: tuple[str, ...] = ()
-    kind: type[HdpeaError] | None = None
-    message: str = ""
-    hint: str = ""
-
-    @property
-    def name(self) -> str:
-        """What people call it by."""
-        return ", ".join(self.sources)
-
-    @classmethod
-    def of(cls, job: Job, report: Report | None, error: HdpeaError | None) -> Ended:
-        """Sum up a job."""
-        from hdpea.report.summary import outcome
-
-        return cls(
-            job.destination.sources,
-            job.destination.name,
-            None if report is None else report.as_json(),
-            () if report is None else tuple(outcome(report)),
-            None if error is None else type(error),
-            "" if error is None else error.message,
-            "" if error is None else error.hint,
-        )
-
-    def as_line(self) -> str:
-        """Return one line of JSON."""
-        facts = {
-            "inputs": self.sources,
-            "output": self.output,
-            "exit_code": 0 if self.kind is None else self.kind.exit_code,
-            "error": self.message or None,
-            "hint": self.hint or None,
-            "report": self.report,
-        }
-        return json.dumps(facts)
 
 
 def make_mesh(job: Job, progress: ProgressCallback | None) -> Report:
@@ -222,5 +177,5 @@ def attempt(job: Job) -> Ended:
         with core_errors_translated():
             report = make_mesh(job, None)
     except HdpeaError as error:
-        return Ended.of(job, None, error)
-    return Ended.of(job, report, missed(job, report))
+        return Ended.of(job.destination, None, error)
+    return Ended.of(job.destination, report, missed(job, report))

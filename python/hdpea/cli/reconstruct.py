@@ -15,8 +15,9 @@ import click
 
 from hdpea.cli.config import config_of, config_option
 from hdpea.cli.destinations import FORMATS, destinations, require_no_scan
+from hdpea.cli.ended import Ended
 from hdpea.cli.groups import GroupedCommand, GroupedOption, in_flags
-from hdpea.cli.job import Ended, Job, make_mesh, missed, remarks
+from hdpea.cli.job import Job, make_mesh, missed, remarks
 from hdpea.cli.parameters import chosen_options, force_option, quiet_option, setting_options, up_option
 from hdpea.cli.tiles import MemoryType, Resources
 from hdpea.cli.types import PATH
@@ -215,14 +216,14 @@ def _make_one(job: Job, as_json: bool, quiet: bool, verbose: bool) -> None:
             report = make_mesh(job, progress)
         error = missed(job, report)
         if as_json:
-            click.echo(Ended.of(job, report, error).as_line())
+            click.echo(Ended.of(job.destination, report, error).as_line())
         if not quiet:
             click.echo(in_flags(summarize(report, job.destination.name, verbose)), err=True)
             for line in remarks(job, report):
                 click.echo(line, err=True)
     except HdpeaError as failed:
         if as_json:
-            click.echo(Ended.of(job, None, failed).as_line())
+            click.echo(Ended.of(job.destination, None, failed).as_line())
         raise
     if error is not None:
         raise error

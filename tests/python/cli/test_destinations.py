@@ -15,7 +15,7 @@ from helpers.meshes import TETRAHEDRON_FACES, tetrahedron
 
 from hdpea.cli import run
 from hdpea.cli.batch import BY_GRAVITY, worst_of
-from hdpea.cli.job import Ended
+from hdpea.cli.ended import Ended
 from hdpea.errors import CannotReconstruct, HdpeaError, QualityMissed, UnreadableInput, UsageError
 from hdpea.reading import read_points
 from hdpea.runtime.marks import is_marked

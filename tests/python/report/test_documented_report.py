@@ -13,7 +13,7 @@ import numpy as np
 from helpers import clouds
 
 from hdpea import reconstruct
-from hdpea.cli.job import Ended
+from hdpea.cli.ended import Ended
 from hdpea.options import Options
 from hdpea.options.settings import changed
 
