@@ -29,7 +29,7 @@ PROCESSOR_SECONDS = Cost(fixed=3.64, per_thousand_points=0.0853, per_thousand_ve
 """Processor time of the whole command, all threads together."""
 
 ON_TWO_CORES = 0.73
-"""Seconds on two idle cores for each of the processor: 0.72 and 0.73 of 250,000 and 40,000 points."""
+"""Seconds on two idle cores for each of the processor: 0.68 and 0.73 of 250,000 and 40,000 points."""
 
 PEAK_BYTES = Cost(fixed=264e6, per_thousand_points=2.42e6, per_thousand_vertices=0)
 """Peak resident memory of the process."""
