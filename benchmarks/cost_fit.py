@@ -20,9 +20,8 @@ import click
 import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import nnls
-from stage_times import made, run_once
+from stage_times import made, made_bare, run_once
 
-from hdpea import read_points
 from hdpea.report.cost import Cost
 
 SIZES = "10000/1250,10000/4000,40000/5000,40000/15000,100000/12500,250000/10000,250000/31250,1000000/100000"
@@ -69,10 +68,7 @@ def measured(points: int, vertices: int, bare: bool) -> Measured:
     """Make a mesh of so many points by the command."""
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
-        cloud = made("knot", points, folder)
-        if bare:
-            oriented, cloud = cloud, folder / "bare.npy"
-            np.save(cloud, read_points(oriented).points)
+        cloud = (made_bare if bare else made)("knot", points, folder)
         run = run_once(cloud, folder, ("--vertices", str(vertices)))
     return {"seconds": run["cpu"], "bytes": run["memory"] * 2**20}
 

@@ -93,9 +93,7 @@ def main(points: str, bare: str, scan: tuple[Path, ...], shape: str, runs: int, 
         for count in sizes(points):
             clouds[f"{count:,} points"] = made(shape, count, folder)
         for count in sizes(bare):
-            file = folder / f"{count}.npy"
-            np.save(file, read_points(made(shape, count, folder)).points)
-            clouds[f"{count:,} without normals"] = file
+            clouds[f"{count:,} without normals"] = made_bare(shape, count, folder)
         for label, cloud in clouds.items():
             measured[label] = [run_once(cloud, folder, arguments) for _ in range(runs)]
     print_table(measured)
@@ -110,6 +108,13 @@ def made(shape: str, count: int, folder: Path) -> Path:
     """Sample a shape."""
     cloud = folder / f"{count}.ply"
     subprocess.run([sys.executable, str(SHAPES), shape, str(cloud), "--points", str(count)], check=True)
+    return cloud
+
+
+def made_bare(shape: str, count: int, folder: Path) -> Path:
+    """Sample a shape without its normals."""
+    cloud = folder / f"{count}.npy"
+    np.save(cloud, read_points(made(shape, count, folder)).points)
     return cloud
 
 

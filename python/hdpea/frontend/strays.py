@@ -128,11 +128,12 @@ def _lie_far_off(
     """Return which of the `rows` of points (n, 3) stand out over the far reach among those `left`, (rows,) bool."""
     standing = np.ascontiguousarray(points[left])
     nearest = left[_core.nearest_neighbors(standing, np.ascontiguousarray(points[rows]), FAR_REACH + 1)[:, 1:]]
-    reached = np.zeros(len(points))
-    reached[rows] = reached[nearest] = 1
-    asked = np.flatnonzero(reached)
+    needed = np.zeros(len(points), dtype=bool)
+    needed[rows] = needed[nearest] = True
+    asked = np.flatnonzero(needed)
     places = np.ascontiguousarray(points[asked])
     last = left[_core.nearest_neighbors(standing, places, FAR_REACH + 1)[:, -1]]
+    reached = np.zeros(len(points))
     reached[asked] = np.linalg.norm(points[last] - places, axis=1)
     return np.asarray(reached[rows] > farther * np.quantile(reached[nearest], SURROUNDINGS, axis=1))
 
