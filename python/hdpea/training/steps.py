@@ -53,7 +53,6 @@ class Training:
         if not self.metric.scale > 0:
             raise UsageError("There is nothing to learn: the samples' metric has a scale of 0 and stretches nothing.")
         self.network = PointTransformer(network, self.metric).train().to(self.workers.device)
-        self.shared = self.workers.share(self.network)
         self.averaged = {name: value.clone() for name, value in self.network.state_dict().items()}
         self.optimizer = torch.optim.AdamW(
             _groups(self.network, options), weight_decay=options.weight_decay, fused=True
@@ -139,10 +138,11 @@ class Training:
             group["lr"] = group["full_rate"] * share
         crop = crop.to(self.workers.device)
         with torch.autocast(self.workers.device.type, torch.bfloat16, enabled=self.half):
-            psi = self.shared(crop.clouds)
+            psi = self.network(crop.clouds)
         parts = loss_parts(psi.float(), crop.truth, options.loss)
         self.optimizer.zero_grad()
         torch.autograd.backward(parts["loss"])
+        self.workers.average_gradients(self.network)
         norm = nn.utils.clip_grad_norm_(self.network.parameters(), options.clip or math.inf)
         # One bad crop must not spoil hours of training.
         if torch.isfinite(norm):

@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import importlib
 import os
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
@@ -23,9 +24,18 @@ class Workers:
     count: int = 1
     device: torch.device = field(default_factory=lambda: torch.device("cpu"))
 
-    def share(self, network: nn.Module) -> nn.Module:
-        """Wrap the network so that gradients are averaged over all processes."""
-        return nn.parallel.DistributedDataParallel(network) if self.count > 1 else network
+    def average_gradients(self, network: nn.Module) -> None:
+        """Replace the gradients of a network by their means over all processes.
+
+        Not by ``DistributedDataParallel``, of which the group's threads outlive the group (PyTorch 2.13): one that
+        frees a tensor while the interpreter ends aborts the process.
+        """
+        if self.count == 1:
+            return
+        gradients = [weights.grad for weights in network.parameters() if weights.grad is not None]
+        means = nn.utils.parameters_to_vector(gradients)
+        distributed.all_reduce(means)
+        nn.utils.vector_to_parameters(means / self.count, gradients)
 
     def mean(self, values: Mapping[str, float]) -> dict[str, float]:
         """Return the means of values over all processes."""
@@ -51,6 +61,8 @@ def joined_workers(device: str = TrainingOptions.device) -> Iterator[Workers]:
         return
     if own.type == "cuda":
         own = torch_device(f"cuda:{os.environ.get('LOCAL_RANK', '0')}")
+    # Imported while there is a group, its functions keep that group, and its threads, as a default argument.
+    importlib.import_module("torch.distributed.nn")
     distributed.init_process_group("nccl" if own.type == "cuda" else "gloo")
     try:
         yield Workers(distributed.get_rank(), count, own)
