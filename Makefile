@@ -66,14 +66,14 @@ $(VENV)/.dependencies: pyproject.toml $(CONSTRAINTS) | debian
 # Not isolated, since an isolated build would compile nanobind anew each time.
 $(VENV)/.package: $(VENV)/.dependencies $(PACKAGE_SOURCES)
 	@echo "== Building and installing hdpea into $(VENV)/"
-	$(BIN)/pip install -qq -c $(CONSTRAINTS) --no-build-isolation '.[dataset,io,picture,texture,torch]'
+	$(BIN)/pip install -qq -c $(CONSTRAINTS) --no-build-isolation '.[cluster,dataset,io,picture,texture,torch]'
 	@touch $@
 
 setup: debian $(VENV)/.package
 
 bench-setup: setup
 	$(BIN)/pip install -qq -c $(CONSTRAINTS) --group bench
-	$(BIN)/pip install -qq -c $(CONSTRAINTS) --no-build-isolation '.[benchmark,dataset,io,picture,texture,torch]'
+	$(BIN)/pip install -qq -c $(CONSTRAINTS) --no-build-isolation '.[benchmark,cluster,dataset,io,picture,texture,torch]'
 
 # One suite into docs/results/: make results SUITE=quick MESHES=meshes/ [MODELS="--models 5"]
 results: RESULTS = results/$(basename $(notdir $(SUITE)))

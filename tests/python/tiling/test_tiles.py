@@ -1,11 +1,16 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 from __future__ import annotations
 
+import os
+import signal
+import threading
+import time
 from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
 import pytest
+from distributed import LocalCluster
 from helpers import clouds
 
 from hdpea import _core
@@ -74,8 +79,9 @@ def test_each_stray_is_told_once_though_tiles_overlap(tmp_path: Path) -> None:
     assert "Dropped points that lie on no surface: 18." in report.notes
 
 
-def made(folder: Path, jobs: int = 1, normals: bool = True) -> Reconstruction:
-    return reconstruct_in_tiles(torus_stream(normals), Tiling(folder / "work", 1e9, jobs, tile_points=TILE_POINTS))
+def made(folder: Path, jobs: int = 1, normals: bool = True, scheduler: str | None = None) -> Reconstruction:
+    tiling = Tiling(folder / "work", 1e9, jobs, scheduler, tile_points=TILE_POINTS)
+    return reconstruct_in_tiles(torus_stream(normals), tiling)
 
 
 @pytest.fixture(scope="module")
@@ -122,6 +128,26 @@ def test_processes_that_go_on_with_a_killed_run_give_the_same_bytes(
     again = made(tmp_path, jobs=2)
     np.testing.assert_array_equal(again.vertices, whole.vertices)
     np.testing.assert_array_equal(again.faces, whole.faces)
+
+
+def test_a_cluster_of_which_a_worker_is_killed_gives_the_same_bytes(whole: Reconstruction, tmp_path: Path) -> None:
+    def killed(cluster: LocalCluster) -> None:
+        while not any((tmp_path / "work").glob("particles.*")):
+            time.sleep(0.02)
+        os.kill(cluster.workers[0].process.pid, signal.SIGKILL)
+
+    with LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None) as cluster:
+        killer = threading.Thread(target=killed, args=(cluster,), daemon=True)
+        killer.start()
+        again = made(tmp_path, scheduler=cluster.scheduler_address)
+        assert not killer.is_alive()
+    np.testing.assert_array_equal(again.vertices, whole.vertices)
+    np.testing.assert_array_equal(again.faces, whole.faces)
+
+
+def test_a_cluster_that_is_not_there_is_told(tmp_path: Path) -> None:
+    with pytest.raises(UsageError, match="There is no Dask scheduler at nowhere://"):
+        made(tmp_path, scheduler="nowhere://")
 
 
 def test_tiles_without_normals_agree_on_the_outside(tmp_path: Path) -> None:
