@@ -6,7 +6,7 @@
 The cloud is an analytic shape with its normals, in a binary PLY file. A row is a run in a process of its own: processor
 and wall-clock time, largest memory of a process, the first digits of a digest of vertices and faces, and the seams:
 the root mean square distance of points within two spacings of the vertices of a seam from the mesh, by that of all
-others. With ``--whole`` the first row is the cloud in one piece, as if it had the same seams.
+others. Seams are where tiles meet, and the rims within which each was finished. With ``--whole`` the first row is the cloud in one piece, as if it had the same seams.
 
 With ``--cluster`` a Dask cluster of two workers works on the tiles, of which one is killed when half of the particles
 are placed. It needs ``dask[distributed]``.
@@ -62,8 +62,8 @@ def main() -> None:
     print(
         "| worked on by | tiles | processor s | wall-clock s | largest process, MB | vertices | closed, genus |", end=""
     )
-    print(" rms, 1e-3 spacings | seam / elsewhere | digest |")
-    print("|---" * 10 + "|")
+    print(" rms, 1e-3 spacings | farthest | seam / elsewhere | digest |")
+    print("|---" * 11 + "|")
     rows: list[Any] = [*(["whole"] if asked.whole else []), *asked.jobs, *(["cluster"] if asked.cluster else [])]
     with tempfile.TemporaryDirectory() as folder:
         cloud = Path(folder) / "cloud.ply"
@@ -90,10 +90,11 @@ def row(who: int | str, cloud: Path, most: int) -> list[str]:
     names = {"whole": "one piece", "cluster": "Dask, 2 workers, one killed"}
     name = names.get(str(who), f"{who} processes" if who != 1 else "1 process")
     digest = hashlib.sha256(result.vertices.tobytes() + result.faces.tobytes()).hexdigest()[:8]
-    rms = f"{1000 * result.report.distances.rms / result.report.distances.spacing:.1f}"
+    distances = result.report.distances
+    rms, farthest = (f"{1000 * each / distances.spacing:.1f}" for each in (distances.rms, distances.max))
     closed = f"{'yes' if mesh.closed else 'no'}, {mesh.genus}"
     ratio = f"{seam_ratio(points, result, plan):.3f}"
-    facts = [tiles, f"{busy:.0f}", f"{wall:.0f}", f"{peak / 1e6:.0f}", f"{mesh.vertices:,}", closed, rms, ratio, digest]
+    facts = [tiles, f"{busy:.0f}", f"{wall:.0f}", f"{peak / 1e6:.0f}", f"{mesh.vertices:,}", closed, rms, farthest, ratio, digest]
     return [name, *facts]
 
 
@@ -134,9 +135,17 @@ def seam_ratio(points: Vectors, result: Reconstruction, plan: Plan) -> float:
     corners = result.vertices[result.faces]
     area = np.linalg.norm(np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1).sum() / 2
     near = NEAR * np.sqrt(area / len(result.vertices)) / plan.frame.diagonal
-    in_unit = plan.frame.to_unit(points)
-    at_seam = sum(plan.inside(tile, in_unit, near).astype(int) for tile in range(plan.tiles)) > 1
+    at_seam = at_seams(plan, plan.frame.to_unit(points), near)
     return float(np.sqrt((distances[at_seam] ** 2).mean() / (distances[~at_seam] ** 2).mean()))
+
+
+def at_seams(plan: Plan, points: Vectors, near: float) -> NDArray[np.bool_]:
+    """Return which points in the unit frame (n, 3) lie near to where tiles meet, or to the rim of what each finished."""
+    seams = np.zeros(len(points), dtype=bool)
+    for tile in range(plan.tiles):
+        for reach in (0.0, plan.collar):
+            seams |= plan.inside(tile, points, reach + near) & ~plan.inside(tile, points, reach - near)
+    return seams
 
 
 if __name__ == "__main__":

@@ -63,9 +63,9 @@ class Agreement {
   double min_cosine_;
 };
 
-/// The vertices that fit best in one round: they solve the normal equations.
+/// The vertices that fit best in one round beside those that are fixed: they solve the normal equations.
 Points fitted_vertices(const Points& vertices, const FacesRef& faces, const PointsRef& points, const PointsRef& normals,
-                       const RefinementOptions& options) {
+                       const RefinementOptions& options, const MaskRef& fixed) {
   const SurfacePoints feet = closest_surface_points(vertices, faces, points);
   const Agreement agreement(vertices, faces, options.min_cosine);
   const double pull = options.pull * static_cast<double>(points.rows()) / static_cast<double>(vertices.rows());
@@ -80,7 +80,7 @@ Points fitted_vertices(const Points& vertices, const FacesRef& faces, const Poin
     const double offset = normal.dot(points.row(p));
     for (int i = 0; i < 3; ++i) right.row(faces(f, i)) += offset * weights(i) * normal;
   }
-  return system.solve(right, vertices);
+  return system.solve(right, vertices, fixed);
 }
 
 /// The size of the faces around each vertex, sqrt(2 area).
@@ -181,11 +181,8 @@ Points refine_vertices(const PointsRef& vertices, const FacesRef& faces, const P
   const Eigen::VectorXd gap = options.max_gap * sizes(refined, faces);
   for (Index round = 0; round < options.rounds; ++round) {
     report(progress, static_cast<double>(round) / static_cast<double>(options.rounds));
-    Points fitted = fitted_vertices(refined, faces, points, normals, options);
+    Points fitted = fitted_vertices(refined, faces, points, normals, options, fixed);
     stay_near(points, nearest, refined, gap, fitted);
-    for (Index v = 0; v < fixed.size(); ++v) {
-      if (fixed(v)) fitted.row(v) = refined.row(v);
-    }
     refined = take_safe_step(outward, refined, fitted, faces, options);
   }
   report(progress, 1);

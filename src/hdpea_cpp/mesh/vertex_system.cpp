@@ -66,9 +66,12 @@ Points VertexSystem::times(const Points& vectors) const {
   return product;
 }
 
-Points VertexSystem::solve(const Points& right, const Points& start) const {
-  std::vector<Block> inverses(static_cast<std::size_t>(start.rows()));
-  parallel_for(start.rows(), [&](Index v) { inverses[v] = blocks_[starts_[v]].inverse(); });
+Points VertexSystem::solve(const Points& right, const Points& start, const MaskRef& fixed) const {
+  // Zero for a fixed vertex, which no direction of the search moves then.
+  std::vector<Block> inverses(static_cast<std::size_t>(start.rows()), Block::Zero());
+  parallel_for(start.rows(), [&](Index v) {
+    if (fixed.size() == 0 || !fixed(v)) inverses[v] = blocks_[starts_[v]].inverse();
+  });
   const auto preconditioned = [&](const Points& vectors) {
     Points result(vectors.rows(), 3);
     parallel_for(vectors.rows(), [&](Index v) { result.row(v) = vectors.row(v) * inverses[v]; });

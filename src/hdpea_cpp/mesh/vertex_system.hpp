@@ -25,8 +25,9 @@ class VertexSystem {
   void add_to_diagonal(double value);
   /// Solves for the vertices (v, 3), beginning at `start`, and stops as near to the solution as rounding allows.
   ///
+  /// @param fixed  (v), or none: which vertices stay at `start`, so that the others are solved for alone
   /// @throws CannotReconstruct if numbers overflow
-  Points solve(const Points& right, const Points& start) const;
+  Points solve(const Points& right, const Points& start, const MaskRef& fixed = Mask()) const;
 
  private:
   using Block = Eigen::Matrix3d;

@@ -35,6 +35,21 @@ TEST(Refinement, BringsAnInscribedTorusCloserToIt) {
   EXPECT_LT(rms(refined, mesh.faces, dense.vertices), 0.6 * rms(mesh.vertices, mesh.faces, dense.vertices));
 }
 
+TEST(Refinement, PointsBeyondAFixedRimMoveNothingWithin) {
+  const auto mesh = shapes::grid(6, 6);
+  Mask rim(mesh.vertices.rows());
+  for (Index v = 0; v < rim.size(); ++v) {
+    const double x = mesh.vertices(v, 0), y = mesh.vertices(v, 1);
+    rim(v) = x == 0 || x == 1 || y == 0 || y == 1;
+  }
+  const auto plane = clouds::plane(1000);
+  // Those of the next tile, where the surface bends down: their feet are on the rim.
+  Points points(2000, 3), normals = plane.normals.replicate(2, 1);
+  points << plane.points, plane.points + Eigen::RowVector3d(1, 0, -0.2).replicate(1000, 1);
+  const Points refined = refine_vertices(mesh.vertices, mesh.faces, points, normals, {}, {}, rim);
+  EXPECT_LT((refined - mesh.vertices).cwiseAbs().maxCoeff(), 1e-9);
+}
+
 TEST(Refinement, NeverFlipsAFace) {
   // Points scattered far off the mesh pull hard; faces turn by less than the limit in each round.
   const auto mesh = shapes::grid(6, 6);
