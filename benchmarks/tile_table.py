@@ -6,7 +6,8 @@
 The cloud is an analytic shape with its normals, in a binary PLY file. A row is a run in a process of its own: processor
 and wall-clock time, largest memory of a process, the first digits of a digest of vertices and faces, and the seams:
 the root mean square distance of points within two spacings of the vertices of a seam from the mesh, by that of all
-others. Seams are where tiles meet, and the rims within which each was finished. With ``--whole`` the first row is the cloud in one piece, as if it had the same seams.
+others. Seams are where tiles meet, and the rims within which each was finished. With ``--whole`` the first row is the
+cloud in one piece, as if it had the same seams.
 
 With ``--cluster`` a Dask cluster of two workers works on the tiles, of which one is killed when half of the particles
 are placed. It needs ``dask[distributed]``.
@@ -94,8 +95,8 @@ def row(who: int | str, cloud: Path, most: int) -> list[str]:
     rms, farthest = (f"{1000 * each / distances.spacing:.1f}" for each in (distances.rms, distances.max))
     closed = f"{'yes' if mesh.closed else 'no'}, {mesh.genus}"
     ratio = f"{seam_ratio(points, result, plan):.3f}"
-    facts = [tiles, f"{busy:.0f}", f"{wall:.0f}", f"{peak / 1e6:.0f}", f"{mesh.vertices:,}", closed, rms, farthest, ratio, digest]
-    return [name, *facts]
+    took = [f"{busy:.0f}", f"{wall:.0f}", f"{peak / 1e6:.0f}"]
+    return [name, tiles, *took, f"{mesh.vertices:,}", closed, rms, farthest, ratio, digest]
 
 
 def tiled(cloud: Path, who: int | str, most: int) -> Reconstruction:
@@ -140,7 +141,7 @@ def seam_ratio(points: Vectors, result: Reconstruction, plan: Plan) -> float:
 
 
 def at_seams(plan: Plan, points: Vectors, near: float) -> NDArray[np.bool_]:
-    """Return which points in the unit frame (n, 3) lie near to where tiles meet, or to the rim of what each finished."""
+    """Return which points in the unit frame (n, 3) lie near to where tiles meet, or to the rim that each has."""
     seams = np.zeros(len(points), dtype=bool)
     for tile in range(plan.tiles):
         for reach in (0.0, plan.collar):
