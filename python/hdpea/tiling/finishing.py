@@ -37,7 +37,6 @@ def finish(work: Work, tile: int) -> None:
     stage = int(work.plan.colors()[tile])
     whole = work.folder.load("mesh", stage)
     vertices, faces = whole["vertices"], whole["faces"]
-    reach = work.plan.collar + BEYOND * work.plan.halo
     known = work.plan.inside(tile, vertices, work.plan.halo)
     local = np.flatnonzero(known[faces].any(axis=1))
     centres = vertices[faces[local]].mean(axis=1)
@@ -48,7 +47,7 @@ def finish(work: Work, tile: int) -> None:
         )
         return
     region = region_of(faces[local], wanted, ~known)
-    mesh, surface, embedded = _mesh_of(work, tile, vertices[region.vertices], region.faces, reach)
+    mesh, surface, embedded = _mesh_of(work, tile, vertices, faces[local], region)
     made = _finished(work, tile, mesh, region, surface, embedded)
     arrays = _arrays(local[region.rows], made.vertices_in_unit, made.faces, region.vertices[: region.fixed])
     work.folder.save("finished", tile, arrays)
@@ -61,18 +60,21 @@ def _arrays(
 
 
 def _mesh_of(
-    work: Work, tile: int, vertices: NDArray[np.float64], faces: NDArray[np.int64], reach: float
+    work: Work, tile: int, vertices: NDArray[np.float64], faces: NDArray[np.int64], region: Region
 ) -> tuple[Mesh, Surface, EmbeddedTile]:
-    """Return a part of the mesh in the R^8 of a tile, and the points there."""
-    embedded = EmbeddedTile.of(work, tile)
-    coordinates, _ = embedded.lifted(vertices, vertex_normals(vertices, faces))
-    rows = np.flatnonzero(work.plan.inside(tile, embedded.surface.points_in_unit, reach))
-    whole = embedded.surface
+    """Return a region of the `faces` that a tile knows in the R^8 of the tile, and the points there."""
+    embedded, within = EmbeddedTile.of(work, tile), vertices[region.vertices]
+    coordinates, _ = embedded.lifted(within, vertex_normals(within, region.faces))
+    whole, reach = embedded.surface, work.plan.collar + BEYOND * work.plan.halo
+    rows = np.flatnonzero(work.plan.inside(tile, whole.points_in_unit, reach))
+    # What passes by beyond the rim has faces of its own, or its points would pull at the region from afar.
+    nearest = _core.closest_surface_points(vertices, faces, whole.points_in_unit[rows]).face
+    rows = rows[np.isin(faces, region.vertices).any(axis=1)[nearest]]
     surface = Surface(
         whole.frame, whole.points_in_unit[rows], whole.normals[rows], np.empty((len(rows), 0), np.int64), whole.spacing
     )
     near = EmbeddedTile(surface, embedded.coordinates[rows], embedded.bases[rows])
-    return Mesh(vertices, faces, coordinates), surface, near
+    return Mesh(within, region.faces, coordinates), surface, near
 
 
 def _finished(work: Work, tile: int, mesh: Mesh, region: Region, surface: Surface, embedded: EmbeddedTile) -> Mesh:
