@@ -21,7 +21,7 @@ from hdpea.options import MeshingOptions
 from hdpea.reading.triangle_mesh import drop_unused
 from hdpea.surface.surface import Surface
 from hdpea.tiling.joining import save_mesh
-from hdpea.tiling.regions import Region, region_of
+from hdpea.tiling.regions import Region, points_at, region_of
 from hdpea.tiling.work import Agreed, EmbeddedTile, Work
 
 BEYOND = 0.25
@@ -67,9 +67,7 @@ def _mesh_of(
     coordinates, _ = embedded.lifted(within, vertex_normals(within, region.faces))
     whole, reach = embedded.surface, work.plan.collar + BEYOND * work.plan.halo
     rows = np.flatnonzero(work.plan.inside(tile, whole.points_in_unit, reach))
-    # What passes by beyond the rim has faces of its own, or its points would pull at the region from afar.
-    nearest = _core.closest_surface_points(vertices, faces, whole.points_in_unit[rows]).face
-    rows = rows[np.isin(faces, region.vertices).any(axis=1)[nearest]]
+    rows = rows[points_at(region, vertices, faces, whole.points_in_unit[rows])]
     surface = Surface(
         whole.frame, whole.points_in_unit[rows], whole.normals[rows], np.empty((len(rows), 0), np.int64), whole.spacing
     )

@@ -8,6 +8,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from hdpea import _core
+
 
 class Region(NamedTuple):
     """A part of a mesh that is a manifold mesh itself.
@@ -73,3 +75,16 @@ def region_of(faces: NDArray[np.int64], wanted: NDArray[np.bool_], unknown: NDAr
     number = np.zeros(count, dtype=np.int64)
     number[vertices] = np.arange(len(vertices))
     return Region(rows, vertices, number[faces[rows]], int(fixed.sum()))
+
+
+def points_at(
+    region: Region, vertices: NDArray[np.float64], faces: NDArray[np.int64], points: NDArray[np.float64]
+) -> NDArray[np.bool_]:
+    """Return which points (n, 3) are nearest to a face at a vertex of the region, among all `faces` that are known.
+
+    Those of what passes by beyond the rim would pull at the region from afar.
+    """
+    of_region = np.zeros(len(vertices), dtype=bool)
+    of_region[region.vertices] = True
+    nearest = faces[_core.closest_surface_points(vertices, faces, points).face]
+    return np.asarray(of_region[nearest].any(axis=1))
