@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import csv
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
@@ -11,7 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hdpea.errors import UnreadableInput
-from hdpea.reading.tables import BadLine, is_number
+from hdpea.reading.names import coordinates_among
+from hdpea.reading.tables import BadLine, is_number, look_like_normals
 
 UNKNOWN = frozenset({"", "na", "n/a", "null", "none", "-", "nan"})
 """Fields, in lower case, where there is no number."""
@@ -27,25 +29,47 @@ class Columns:
     unknown: int = 0
 
     def named(self, names: Sequence[str]) -> dict[str, NDArray[np.float64]]:
-        """Return the columns of numbers by the names of all columns; one without a name that counts rows is not."""
+        """Return the columns of numbers by the names of all columns; one without a name that numbers rows is not."""
         named: dict[str, NDArray[np.float64]] = {}
         for place, column in zip(self.places, self.table.T, strict=True):
-            if names[place] != f"column_{place + 1}" or not _counts_rows(column):
+            numbers = _counts_rows(column) or (place == 0 and _tells_apart(column))
+            if names[place] != f"column_{place + 1}" or not numbers:
                 named[names[place] if names[place] not in named else f"{names[place]}_{place + 1}"] = column
         return named
 
-    def fits(self, names: int) -> bool:
-        """Say whether so many names are those of all columns, or of all but a first one that names or numbers rows."""
-        if names == self.width:
+    def fits(self, names: Sequence[str]) -> bool:
+        """Say whether these plain names are those of all columns, or of all but a first one that names rows."""
+        if len(names) != self.width - 1:
+            return len(names) == self.width
+        first = self.table[:, 0]
+        if 0 not in self.places or (len(first) > 1 and _counts_rows(first)):
             return True
-        return 0 not in self.places or (len(self.table) > 1 and _counts_rows(self.table[:, 0]))
+        if len(coordinates_among(names)) < 3 or len(first) < LEAST_ROWS or not _tells_apart(first):
+            return False
+        # Some rows of a longer table, as R and pandas write them, unless the names fit as well without a shift.
+        at = min(names.index(name) for name in coordinates_among(names))
+        unshifted = self.table[:, [i for i, place in enumerate(self.places) if place == at]]
+        return _with_fractions(self.table[:, 1:]) >= 3 and not _with_fractions(unshifted)
 
-    def without_row_numbers(self, notes: list[str]) -> Columns:
-        """Return the columns without a first one that counts the rows, if there are three others; note that."""
-        if self.table.shape[1] < 4 or len(self.table) < LEAST_ROWS or not _counts_rows(self.table[:, 0]):
+    def without_row_numbers(self, notes: list[str], told: bool = False) -> Columns:
+        """Return the columns without a first one that numbers the rows, if there are three others; note that.
+
+        It does if it counts them, if its numbers are whole, rise or fall, and three columns of fractions follow, or if
+        the file has `told` so.
+        """
+        if self.table.shape[1] < 4 or not (self.places[0] == 0 if told else self._are_numbered()):
             return self
         notes.append(f"Column {self.places[0] + 1} numbers the rows; the next three are taken for x, y and z.")
         return replace(self, table=self.table[:, 1:], places=self.places[1:])
+
+    def _are_numbered(self) -> bool:
+        first, others = self.table[:, 0], self.table[:, 1:4]
+        if len(first) < LEAST_ROWS or _counts_rows(first):
+            return len(first) >= LEAST_ROWS
+        is_sorted = bool((first[1:] > first[:-1]).all() or (first[1:] < first[:-1]).all())
+        # Normals in columns 4 to 6 say that those before are coordinates.
+        has_normals = self.table.shape[1] >= 6 and look_like_normals(self.table[:, 3:6])
+        return is_sorted and _tells_apart(first) and _with_fractions(others) == 3 and not has_normals
 
     def notes(self) -> list[str]:
         """Return what a user should know, in sentences."""
@@ -57,9 +81,62 @@ class Columns:
 LEAST_ROWS = 10
 """Rows below which numbers that rise by 1 may be chance."""
 
+FRACTION_SHARE = 0.25
+"""Share of rows with fractions above which a column is not of whole numbers; a grid of spacing 1/2 has half."""
+
 
 def _counts_rows(column: NDArray[np.float64]) -> bool:
     return bool(np.array_equal(column, column[:1] + np.arange(len(column))))
+
+
+def _tells_apart(column: NDArray[np.float64]) -> bool:
+    """Say whether the numbers are whole, and no two are the same."""
+    is_whole = bool(np.isfinite(column).all() and (column == np.floor(column)).all())
+    return is_whole and len(np.unique(column)) == len(column)
+
+
+def _with_fractions(table: NDArray[np.float64]) -> int:
+    """Return how many columns (n, c) have fractions in more than a few rows."""
+    return int((np.mean(table != np.floor(table), axis=0) > FRACTION_SHARE).sum())
+
+
+_QUOTED = re.compile(r'"([-+]?\d[\d.,]*(?:[eE][-+]?\d+)?)"')
+_IN_THOUSANDS = re.compile(r"[-+]?[1-9]\d{0,2}(?:,\d{3})+")
+
+
+def without_commas(text: str) -> str:
+    """Return a text whose numbers in quotes that hold commas, as in ``"500,1","540,3"``, have decimal points alone.
+
+    Raises
+    ------
+    UnreadableInput
+        If the commas may be decimal signs as well as what parts thousands.
+    """
+    quoted = [each for each in _QUOTED.findall(text) if "," in each] if '"' in text else []
+    if not quoted:
+        return text
+    sign = _decimal_sign(quoted, text)
+    other = "," if sign == "." else "."
+
+    def plain(found: re.Match[str]) -> str:
+        return found[1].replace(other, "").replace(sign, ".") if "," in found[1] else found[0]
+
+    return _QUOTED.sub(plain, text)
+
+
+def _decimal_sign(quoted: Sequence[str], text: str) -> str:
+    """Return what parts the fractions of numbers that hold commas: the later of two signs, or as the text has it."""
+    signs = {max(",.", key=each.rfind) for each in quoted if "." in each}
+    if len(signs) == 1:
+        return signs.pop()
+    if not signs and not all(map(_IN_THOUSANDS.fullmatch, quoted)):
+        return ","
+    if not signs and (any(each.count(",") > 1 for each in quoted) or re.search(r"\d\.\d", text)):
+        return "."
+    if not signs and '","' not in text:
+        return ","
+    mend = "Write decimal points, and nothing between thousands."
+    raise UnreadableInput("the commas within its numbers may be decimal signs or part thousands.", mend)
 
 
 def parse_columns(lines: Sequence[str], separator: str, first_line: int) -> Columns:
@@ -73,7 +150,10 @@ def parse_columns(lines: Sequence[str], separator: str, first_line: int) -> Colu
         If there are fewer than three columns of numbers.
     """
     read = csv.reader(lines, delimiter=separator) if separator else map(str.split, lines)
-    rows = [(number, [each.strip(" \"'") for each in row]) for number, row in enumerate(read, first_line) if row]
+    try:
+        rows = [(number, [each.strip(" \"'") for each in row]) for number, row in enumerate(read, first_line) if row]
+    except csv.Error as error:
+        raise UnreadableInput(f"it is no table ({error}).", "Each quote that begins a field must end it.") from error
     rows = [(number, row) for number, row in rows if any(row)]
     width = len(rows[0][1])
     for number, row in rows:

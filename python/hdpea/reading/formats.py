@@ -3,6 +3,7 @@
 
 from __future__ import annotations
 
+import codecs
 import re
 import struct
 import zlib
@@ -61,6 +62,14 @@ class Format:
     needs: tuple[str, ...] = ()
 
 
+_OBJ = Format(
+    "OBJ",
+    re.compile(
+        rb"(?:\s+|#[^\n]*\n|(?:o|g|s|p|l|vp|lod|mtllib|maplib|usemtl|usemap|mg|cstype|deg)\b[^\n]*\n)*+v[nt]?\s"
+    ),
+    parse_obj,
+)
+
 FORMATS = (
     Format("PLY", re.compile(rb"ply\s"), parse_ply),
     Format("NPY", re.compile(rb"\x93NUMPY"), parse_npy),
@@ -71,12 +80,11 @@ FORMATS = (
     Format("PTX", PTX, parse_ptx),
     # Possessive, since a file of nothing but blank lines has as many ways to match as it has lines.
     Format("OFF", re.compile(rb"(?:\s+|#[^\n]*\n)*+[STCN]*OFF\b"), parse_off),
-    Format(
-        "OBJ",
-        re.compile(rb"(?:\s+|#[^\n]*\n|(?:o|g|s|mtllib|usemtl|usemap|mg)\b[^\n]*\n)*+v[nt]?\s"),
-        parse_obj,
-    ),
+    _OBJ,
 )
+
+_VERTEX = re.compile(rb"(?<![^\r\n])[ \t]*v(?:[ \t]+[-+.\deE]+){3}\s")
+"""What makes a file an OBJ that is called one, whatever it begins with."""
 
 STL = "an STL file, a mesh", "assimp export scan.stl scan.ply"
 
@@ -134,6 +142,7 @@ def parse_points(data: bytes, extension: str = "") -> PointCloud:
     """
     if data.startswith(GZIP):
         data = unzipped(data)
+    data = data.removeprefix(codecs.BOM_UTF8)
     if not data or data.isspace():
         raise UnreadableInput("it is empty.", "Save or export it again; it has no points yet.")
     foreign = _foreign(data)
@@ -141,6 +150,8 @@ def parse_points(data: bytes, extension: str = "") -> PointCloud:
         what, command = foreign
         raise UnreadableInput(f"it is {what}.", f"Convert it: {command}")
     known = next((each for each in FORMATS if each.content.match(data)), None)
+    if known is None and extension == ".obj" and _VERTEX.search(data):
+        known = _OBJ
     if known is not None:
         return _parsed(known, data)
     if b"\0" in data[:4096] and not data.startswith(UTF16):

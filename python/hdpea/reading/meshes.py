@@ -12,13 +12,15 @@ from numpy.typing import NDArray
 
 from hdpea.errors import UnreadableInput
 from hdpea.reading.cloud import MESH_NOTE, PointCloud, from_columns
-from hdpea.reading.tables import columns_by_name, look_like_normals, name_columns, parse_table
+from hdpea.reading.tables import columns_by_name, look_like_normals, name_columns, parse_table, without_words_for_nan
 
 _COLORS = ["red", "green", "blue"]
 _AXES, _NORMALS = ["x", "y", "z"], ["nx", "ny", "nz"]
 _CORNER = re.compile(r"(?<=\s)(\d+)/\d*/(\d+)")
 _OTHER_NORMAL = re.compile(r"(?<=\s)(\d+)/\d*/(?!\1(?!\d))\d")
 """A corner whose normal has another number than its vertex."""
+_CONTINUED = re.compile(r"^[ \t]*(?:vn?|f)[ \t](?:[^\n#\\]*\\[ \t]*\n)+", re.MULTILINE)
+"""Lines that end in a backslash, as those of a comment may, too."""
 
 
 def parse_obj(data: bytes) -> PointCloud:
@@ -31,7 +33,10 @@ def parse_obj(data: bytes) -> PointCloud:
     UnreadableInput
         If there is no ``v`` line, or one does not hold numbers.
     """
-    text = data.decode("utf-8", errors="replace")
+    text = re.sub(r"\r\n?", "\n", data.decode("utf-8-sig", errors="replace"))
+    text = without_words_for_nan(text)  # before what follows a # is taken for a comment
+    if "\\" in text:
+        text = _CONTINUED.sub(lambda found: re.sub(r"\\\s*\n", " ", found[0]), text)
     vertices = _vertices(_after_keyword(text, "v"))
     normals = parse_table(_after_keyword(text, "vn"))
     others = {6: _COLORS, 7: [*_COLORS, "alpha"], 4: ["w"]}

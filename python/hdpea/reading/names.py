@@ -7,15 +7,21 @@ import re
 from collections.abc import Iterable
 
 COORDINATE_NAMES = (
-    ("x", "easting", "east", "e", "x_coord", "coord_x", "xcoord", "x_coordinate", "pos_x", "posx", "position_x", "px"),
+    ("x", "easting", "east", "e", "x_coord", "coord_x", "xcoord", "x_coordinate", "pos_x", "posx", "position_x", "px",
+     "point_x", "points_0", "rechtswert"),
     ("y", "northing", "north", "n", "y_coord", "coord_y", "ycoord", "y_coordinate", "pos_y", "posy", "position_y",
-     "py"),
+     "py", "point_y", "points_1", "hochwert"),
     ("z", "elevation", "elev", "height", "h", "altitude", "z_coord", "coord_z", "zcoord", "z_coordinate", "pos_z",
-     "posz", "position_z", "pz"),
+     "posz", "position_z", "pz", "point_z", "points_2", "höhe", "hoehe"),
 )  # fmt: skip
-"""Of each axis, the likeliest first."""
+"""Of each axis, the likeliest first; ArcGIS has POINT_X, ParaView ``Points:0``, German surveyors Rechtswert."""
 
-NORMAL_NAMES = (("nx", "ny", "nz"), ("normal_x", "normal_y", "normal_z"), ("normalx", "normaly", "normalz"))
+NORMAL_NAMES = (
+    ("nx", "ny", "nz"),
+    ("normal_x", "normal_y", "normal_z"),
+    ("normalx", "normaly", "normalz"),
+    ("normals_0", "normals_1", "normals_2"),
+)
 
 DEGREES = frozenset({"lon", "longitude", "long", "lng", "lat", "latitude"})
 

@@ -16,7 +16,7 @@ from plyfile import PlyData, PlyListProperty, PlyProperty
 from hdpea.errors import UnreadableInput
 from hdpea.reading.cloud import MESH_NOTE, PointCloud, from_columns
 from hdpea.reading.ply_dialects import meaning_of
-from hdpea.reading.tables import columns_by_name, parse_table
+from hdpea.reading.tables import columns_by_name, parse_table, without_words_for_nan
 
 _FORMAT_NAMES = {"<": "binary little-endian PLY", ">": "binary big-endian PLY", "=": "text PLY"}
 _ELEMENT = re.compile(rb"^element[ \t]+(\S+)[ \t]+(\d+)", re.MULTILINE)
@@ -24,7 +24,9 @@ _COMMENT = re.compile(rb"^(?:comment|obj_info)\b[^\r\n]*(?:\r\n|\n|\r)", re.MULT
 _POINTS = re.compile(rb"^(element[ \t]+)(?:vertices|points?)(?=[ \t])", re.MULTILINE | re.IGNORECASE)
 _NAME = re.compile(rb"^(property[ \t]+(?:list[ \t]+\S+[ \t]+)?\S+[ \t]+)(\S[^\r\n]*)", re.MULTILINE)
 _BEFORE_END = re.compile(rb"(?=^element[ \t])", re.MULTILINE)
-_END_OF_HEADER = re.compile(rb"^end_header[ \t]*(\r\n|\n|\r)", re.MULTILINE)
+_END_OF_HEADER = re.compile(rb"(?<=\n)end_header[ \t]*(?:\r\n|\n|\r)|(?<=\r)end_header[ \t]*\r")
+"""Where lines end in a carriage return alone, a line feed after it is of the first point."""
+_END_OF_LINE = re.compile(rb"[ \t]*(?:\r\n|\n|\r)")
 
 
 def parse_ply(data: bytes) -> PointCloud:
@@ -51,14 +53,20 @@ def parse_ply(data: bytes) -> PointCloud:
         elements: Mapping[str, Mapping[str, NDArray[Any]]] = {"vertex": columns}
     else:
         _require_room(header, counts, len(data) - body_start)
-        elements = _read_any(head + data[body_start:])
+        body = data[body_start:]
+        if header.text:
+            body = without_words_for_nan(body.decode("latin1")).encode("latin1")
+        elements = _read_any(head + body)
     notes = [MESH_NOTE] if counts.get("face") else []
     return from_columns(meaning_of(elements, notes), _FORMAT_NAMES[header.byte_order], notes)
 
 
 def _plain_header(head: bytes) -> bytes:
-    """Return a header of nothing but ASCII, without comments, with names that occur once in each element."""
-    plain = _POINTS.sub(rb"\1vertex", _COMMENT.sub(b"", head))
+    """Return a header of nothing but ASCII, without comments, with names that occur once in each element.
+
+    Its lines end as those of Unix do, without blanks before.
+    """
+    plain = _POINTS.sub(rb"\1vertex", _COMMENT.sub(b"", _END_OF_LINE.sub(b"\n", head)))
     elements = []
     for element in _BEFORE_END.split(plain):
         taken: set[bytes] = set()

@@ -14,6 +14,9 @@ from hdpea.errors import UnreadableInput
 UNIT_SHARE = 0.95
 """Share of rows of length 1 (or 0) from which three columns are taken for normals."""
 
+_NOT_A_NUMBER = re.compile(r"[-+]?(?:nan\(\w*\)|1\.#(?:IND|QNAN|SNAN|INF|IO|QO|J|R)\d*)(?![^\s,;\"'])", re.IGNORECASE)
+"""What Windows writes for NaN and infinity; the short ones where few decimals are written."""
+
 MOST_QUOTED = 60
 """Characters of a line that an error quotes."""
 
@@ -54,6 +57,9 @@ def parse_table(lines: Sequence[str], first_line: int = 1, width: int | None = N
     try:
         table = np.loadtxt(lines, dtype=np.float64, comments=None, ndmin=2)
     except ValueError as error:
+        plain = [without_words_for_nan(line) for line in lines]
+        if plain != list(lines):
+            return parse_table(plain, first_line, width)
         raise _first_bad(lines, first_line, expected) from error
     if table.shape[1] != expected:
         raise _first_bad(lines, first_line, expected)
@@ -69,6 +75,11 @@ def _first_bad(lines: Sequence[str], first_line: int, width: int) -> UnreadableI
         if bad is not None:
             return BadLine(number, line, f"where {bad!r} is no number")
     return UnreadableInput("it is not a table of numbers.")
+
+
+def without_words_for_nan(text: str) -> str:
+    """Return a text with ``nan`` for what Windows writes for it, such as ``-nan(ind)`` and ``1.#QNAN``."""
+    return _NOT_A_NUMBER.sub("nan", text) if "(" in text or "1.#" in text else text
 
 
 def is_number(token: str) -> bool:

@@ -4,21 +4,28 @@
 from __future__ import annotations
 
 import codecs
+import csv
 import re
+from contextlib import suppress
 from dataclasses import dataclass, field
 
 from hdpea.errors import UnreadableInput
 from hdpea.reading.cloud import PointCloud, from_columns
-from hdpea.reading.columns import Columns, parse_columns
+from hdpea.reading.columns import Columns, parse_columns, without_commas
 from hdpea.reading.names import coordinates_among, plain_name
-from hdpea.reading.tables import BadLine, comma_is_decimal, is_number, name_columns, parse_table
+from hdpea.reading.tables import (
+    BadLine,
+    comma_is_decimal,
+    is_number,
+    name_columns,
+    parse_table,
+    without_words_for_nan,
+)
 
 _COMMENT = re.compile(r"(#|//|%)[^\n]*")
 _UNREAD = re.compile(r"(?:\s+|(?:#|//|%)[^\n]*(?:\n|$))++")
 """Blank lines and comments; possessive, since there may be millions."""
 _NAMES = re.compile(r"^(?:#|//|%)[^\n]*\bx\b[^\n]*", re.MULTILINE | re.IGNORECASE)
-_NOT_A_NUMBER = re.compile(r"[-+]?(?:nan\(\w*\)|1\.#(?:IND|QNAN|SNAN)\d*)", re.IGNORECASE)
-"""What Windows writes for NaN."""
 _COUNT = re.compile(r"^[ \t]*\d+[ \t\r]*$", re.MULTILINE)
 UTF16 = (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)
 """What a text in UTF-16 begins with, as PowerShell writes it."""
@@ -32,10 +39,13 @@ _PTS = {4: ["intensity"], 6: ["red", "green", "blue"], 7: ["intensity", "red", "
 
 
 def decoded(data: bytes) -> str:
-    """Return a text in UTF-8, or in UTF-16 where it says so; what is neither becomes question marks."""
+    """Return a text in UTF-16 where it says so, in UTF-8, or else as Windows writes it; question marks for the rest."""
     if data.startswith(UTF16):
         return data.decode("utf-16", errors="replace")
-    return data.decode("utf-8-sig", errors="replace")
+    try:
+        return data.decode("utf-8-sig")
+    except UnicodeDecodeError:
+        return data.decode("cp1252", errors="replace")
 
 
 def parse_text(data: bytes, normals_expected: bool = False) -> PointCloud:
@@ -48,11 +58,12 @@ def parse_text(data: bytes, normals_expected: bool = False) -> PointCloud:
     Raises
     ------
     UnreadableInput
-        If a line is not like the others, no column is x, y or z, or the header does not fit the rows.
+        If a line is not like the others, no column is x, y or z, the header does not fit the rows, or what commas are
+        is not to be told.
     """
-    text = decoded(data)
-    if "(" in text or "#" in text:
-        text = _NOT_A_NUMBER.sub("nan", text)
+    text = without_commas(without_words_for_nan(decoded(data)))
+    if "\r" in text:
+        text = text.replace("\r\n", "\n").replace("\r", "\n")
     start = _find_numbers(text)
     body = text[start.offset :]
     announced = 0
@@ -78,7 +89,7 @@ def parse_text(data: bytes, normals_expected: bool = False) -> PointCloud:
     if _names_fit(start, columns, notes):
         named = columns.named(_padded(start.header, width))
     else:
-        columns = columns.without_row_numbers(notes)
+        columns = columns.without_row_numbers(notes, start.numbered)
         named = name_columns(columns.table, normals_expected)
         if start.counted is not None and len(named) in _PTS and "nx" not in named:
             named = dict(zip(["x", "y", "z", *_PTS[len(named)]], named.values(), strict=True))
@@ -87,9 +98,9 @@ def parse_text(data: bytes, normals_expected: bool = False) -> PointCloud:
 
 def _names_fit(start: _Start, columns: Columns, notes: list[str]) -> bool:
     """Say whether the header names the columns; it must, if it names x, y and z elsewhere than in front."""
-    if len(start.header) in {columns.width, columns.width - 1} and columns.fits(len(start.header)):
-        return True
     plain = [plain_name(name) for name in start.header]
+    if columns.fits(plain):
+        return True
     named = coordinates_among(plain)
     if len(named) < 3:
         return False
@@ -121,7 +132,19 @@ def _columns(body: str, start: _Start) -> Columns:
 
 @dataclass(frozen=True)
 class _Start:
-    """The first row, the names in the header before it, and the number in a line of its own, which counts points."""
+    """The first row and what is told before it.
+
+    Attributes
+    ----------
+    offset, line_number, line, separator, words
+        Where the first row begins, what it reads, what separates its fields, and whether some are no numbers.
+    header
+        The names of the columns.
+    counted
+        The number in a line of its own, which counts points.
+    numbered
+        Whether the header says, without naming columns, that the first numbers the rows.
+    """
 
     offset: int
     line_number: int
@@ -130,11 +153,12 @@ class _Start:
     words: bool
     header: list[str] = field(default_factory=list)
     counted: int | None = None
+    numbered: bool = False
 
 
 def _find_numbers(text: str) -> _Start:
     header: list[str] = []
-    offset, counted = 0, None
+    offset, counted, numbered = 0, None, False
     for _ in range(MOST_HEADER_LINES):
         unread = _UNREAD.match(text, offset)
         if unread is not None:
@@ -148,14 +172,39 @@ def _find_numbers(text: str) -> _Start:
         tokens = fields_of(content, separator)
         numbers = [is_number(token) for token in tokens]
         after = text[offset + len(line) : offset + len(line) + 10_000].lstrip().split("\n")[0]
-        if len(tokens) > 1 and (all(numbers) or _is_row(numbers, fields_of(after, separator))):
+        following = fields_of(after, separator)
+        if _counts_columns(tokens, following):
+            header, numbered = [], tokens[0] == "" or len(following) > len(tokens)
+        elif len(tokens) > 1 and (all(numbers) or _is_row(numbers, following)):
             line_number = text.count("\n", 0, offset) + 1
-            return _Start(offset, line_number, content, separator, not all(numbers), header, counted)
-        # What is left besides headers is a single number: the count of points that PTS files begin with.
-        counted = int(tokens[0]) if tokens[0].isdecimal() and len(tokens) == 1 else counted
-        header = header if numbers == [True] else tokens
+            return _Start(offset, line_number, content, separator, not all(numbers), header, counted, numbered)
+        elif numbers == [True]:
+            # The count of points that PTS files begin with.
+            counted = int(tokens[0]) if tokens[0].isdecimal() else counted
+        elif not _is_below_names(tokens, header):
+            header = tokens
         offset += len(line)
     raise UnreadableInput("there are no points in it.", "One point a line is expected, as in: 0.1 0.2 0.3")
+
+
+def _is_below_names(fields: list[str], header: list[str]) -> bool:
+    """Say whether a line below a header that names x, y and z is of their units, or of dashes."""
+    named, others = (len(coordinates_among(map(plain_name, each))) for each in (header, fields))
+    is_shorter = len(fields) < len(header) and not any(map(str.isdecimal, "".join(fields)))
+    return named == 3 and others < 3 and (len(fields) == len(header) or is_shorter)
+
+
+def _counts_columns(fields: list[str], following: list[str]) -> bool:
+    """Say whether a line is the header that pandas gives an array: 0, 1, 2 and so on, after nothing above an index.
+
+    Where nothing says that there is an index, the next line must be of fractions: 0, 1, 2 may be a point.
+    """
+    names = fields[1:] if fields[0] == "" else fields
+    if len(names) < 3 or names != [str(i) for i in range(len(names))]:
+        return False
+    alike = len(following) - len(names) in {0, 1}
+    are_whole = (each.lstrip("-").isdecimal() for each in following[-len(names) :])
+    return alike and (len(names) < len(fields) or not any(are_whole))
 
 
 def _is_row(numbers: list[bool], following: list[str]) -> bool:
@@ -178,6 +227,9 @@ def separator_of(line: str) -> str:
 def fields_of(line: str, separator: str) -> list[str]:
     """Return the fields of a line, without quotes; between separators other than blanks they may be empty."""
     fields = line.strip().split(separator) if separator else (line.split() or [""])
+    if separator and '"' in line:
+        with suppress(csv.Error):  # a field longer than any of a table
+            fields = next(csv.reader([line.strip()], delimiter=separator))
     if separator not in {"", ","} or (not separator and comma_is_decimal(line)):
         fields = [each.replace(",", ".") for each in fields]
     return [each.strip().strip("\"'") for each in fields]
