@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Areas and normals of triangles."""
+"""Areas, normals and neighbours of triangles."""
 
 from __future__ import annotations
 
@@ -57,3 +57,13 @@ def vertex_normals(vertices: NDArray[np.float64], faces: NDArray[np.int64]) -> N
 
 def _unit(vectors: NDArray[np.float64]) -> NDArray[np.float64]:
     return np.asarray(vectors / np.linalg.norm(vectors, axis=1, keepdims=True))
+
+
+def opposite_faces(faces: NDArray[np.int64]) -> NDArray[np.int64]:
+    """Return the face (f, 3) beyond each edge of oriented faces (f, 3): from corner to corner; -1 where none is."""
+    starts, ends = faces.ravel(), np.roll(faces, -1, axis=1).ravel()
+    count = int(faces.max()) + 1
+    keys, back = starts * count + ends, ends * count + starts
+    order = np.argsort(keys)
+    at = order[np.searchsorted(keys[order], back).clip(max=len(keys) - 1)]
+    return np.where(keys[at] == back, at // 3, -1).reshape(-1, 3)

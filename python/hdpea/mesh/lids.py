@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from hdpea import _core
 from hdpea.geometry.linked import first_linked
-from hdpea.geometry.triangles import area_vectors, mesh_area
+from hdpea.geometry.triangles import area_vectors, mesh_area, opposite_faces
 from hdpea.mesh.coverage import MIDDLES
 from hdpea.mesh.extraction import Mesh
 from hdpea.surface.surface import AREA_NEIGHBORS, Surface, areas_shown
@@ -24,7 +24,7 @@ points, and all that lie 3 off are 1 to 2.2 spacings from the true surface; of 4
 boot, engine, lattice_lamp and anchor, opened patches leave less debris, and rms and wrong side a little smaller."""
 
 ACROSS = 0.7
-"""Mean cosine of the angle to the faces around it under which a patch does not continue the surface: it turns by 45
+"""Mean cosine of the angle between a patch and the faces around it under which it does not continue the surface: 45
 degrees. The hole that an obstacle left in a scan is closed, as the surface goes on behind it."""
 
 
@@ -37,15 +37,19 @@ def without_lids(mesh: Mesh, surface: Surface) -> Mesh:
     empty = _emptiness(mesh, surface)
     if not (empty > EMPTY).any():
         return mesh
-    opposite = _opposite_faces(mesh.faces)
+    opposite = opposite_faces(mesh.faces)
     labels = _labels_of_patches(opposite, first)
     vectors = area_vectors(mesh.vertices_in_unit, mesh.faces)
     unit = vectors / np.maximum(np.linalg.norm(vectors, axis=1, keepdims=True), np.finfo(np.float64).tiny)
     face, side = np.nonzero((opposite[first:] >= 0) & (opposite[first:] < first))
     ends = mesh.vertices_in_unit[np.stack([mesh.faces[first + face, side], mesh.faces[first + face, (side + 1) % 3]])]
     lengths = np.linalg.norm(ends[1] - ends[0], axis=1)
-    cosines = np.einsum("nc,nc->n", unit[first + face], unit[opposite[first + face, side]])
     count = len(mesh.patches)
+    # As a whole: where the rim zigzags, the faces of a lid beside it go on along the surface.
+    faced = np.zeros((count, 3))
+    np.add.at(faced, labels, vectors[first:])
+    faced /= np.maximum(np.linalg.norm(faced, axis=1, keepdims=True), np.finfo(np.float64).tiny)
+    cosines = np.einsum("nc,nc->n", faced[labels[face]], unit[opposite[first + face, side]])
     perimeters = np.bincount(labels[face], lengths, count)
     continued = np.bincount(labels[face], lengths * cosines, count) / np.maximum(perimeters, np.finfo(np.float64).tiny)
     emptiest = np.zeros(count)
@@ -68,16 +72,6 @@ def _emptiness(mesh: Mesh, surface: Surface) -> NDArray[np.float64]:
     around = np.quantile(np.where(near >= 0, areas[near], areas[nearest, None]), 0.25, axis=1)
     shares = distances / np.sqrt(np.maximum(around, np.finfo(np.float64).tiny))
     return np.asarray(shares.reshape(len(places), -1).max(axis=1))
-
-
-def _opposite_faces(faces: NDArray[np.int64]) -> NDArray[np.int64]:
-    """Return the face (f, 3) beyond each edge of oriented faces (f, 3): from corner to corner; -1 where none is."""
-    starts, ends = faces.ravel(), np.roll(faces, -1, axis=1).ravel()
-    count = int(faces.max()) + 1
-    keys, back = starts * count + ends, ends * count + starts
-    order = np.argsort(keys)
-    at = order[np.searchsorted(keys[order], back).clip(max=len(keys) - 1)]
-    return np.where(keys[at] == back, at // 3, -1).reshape(-1, 3)
 
 
 def _labels_of_patches(opposite: NDArray[np.int64], first: int) -> NDArray[np.int64]:

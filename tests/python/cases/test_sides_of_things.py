@@ -44,3 +44,13 @@ def test_a_box_on_a_table_faces_out_where_the_table_faces_up() -> None:
     outward = np.where(side[:, None], places * [1, 1, 0], UP)
     against = share_against(made, outward)
     assert against < 0.04 or (against > 0.96 and says_it_is_a_guess(made))
+
+
+def test_a_fruit_in_a_bowl_faces_out() -> None:
+    bowl = sphere_points(6000, 1)
+    middle = np.array([0.1, 0.0, -0.45])
+    made = reconstruct(np.vstack([bowl[bowl[:, 2] < 0.1], middle + 0.35 * sphere_points(1500, 2)]))
+    places = middles(made) - middle
+    of_fruit = np.linalg.norm(places, axis=1) < 0.4
+    assert of_fruit.sum() > 100
+    assert ((area_vectors(made) * places).sum(axis=1)[of_fruit] > 0).all()

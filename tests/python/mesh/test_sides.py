@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+import trimesh
 from helpers import clouds
 
 from hdpea import reconstruct
@@ -46,6 +47,24 @@ def test_within_another_piece_a_side_is_kept(outer: Array, inner: Array) -> None
     faces = facing_out(mesh_of((CORNERS, outer), (SMALL, inner))).mesh.faces
     np.testing.assert_array_equal(np.sort(faces[4:], axis=0), np.sort(inner + 4, axis=0))
     assert volume(CORNERS, faces[:4]) == pytest.approx(1 / 6)
+
+
+@pytest.mark.parametrize("inner", [TETRAHEDRON, INSIDE_OUT])
+def test_within_an_open_piece_a_closed_one_faces_out(inner: Array) -> None:
+    outer = TETRAHEDRON[:3]
+    faces = facing_out(mesh_of((CORNERS, outer), (SMALL, inner))).mesh.faces
+    np.testing.assert_array_equal(faces[:3], outer)
+    assert volume(SMALL, faces[3:] - 4) == pytest.approx(1e-3 / 6)
+
+
+def test_a_wall_of_a_cavity_is_kept_though_the_piece_around_it_has_a_gap() -> None:
+    """A tetrahedron of 1,024 faces of which one is missing holds what is in it."""
+    vertices, faces = CORNERS, TETRAHEDRON
+    for _ in range(4):
+        vertices, faces = trimesh.remesh.subdivide(vertices, faces)
+    both = np.vstack([vertices, SMALL])
+    made = Mesh(both, np.vstack([faces[1:], INSIDE_OUT + len(vertices)]), both)
+    np.testing.assert_array_equal(facing_out(made).mesh.faces, made.faces)
 
 
 def test_an_open_piece_keeps_its_side_and_is_a_guess_if_it_has_no_inside() -> None:

@@ -17,8 +17,12 @@ COUNT = 2000
 
 
 def lines_of_sight(points: clouds.Array) -> clouds.Array:
-    to_sensor = np.array([4.0, 0.5, 0.2]) - points
-    return to_sensor / np.linalg.norm(to_sensor, axis=1, keepdims=True)
+    return unit(np.array([4.0, 0.5, 0.2]) - points)
+
+
+def unit(vectors: clouds.Array) -> clouds.Array:
+    lengths: clouds.Array = np.linalg.norm(vectors, axis=1, keepdims=True)
+    return vectors / lengths
 
 
 def mistaken(kind: str, points: clouds.Array, normals: clouds.Array) -> clouds.Array:
@@ -41,6 +45,30 @@ def test_directions_that_are_none_give_what_estimated_normals_do(shape: str, kin
     assert found.estimated == COUNT
     estimated = oriented_surface(points, options=NormalOptions(normals="estimate"))
     np.testing.assert_array_equal(found.surface.normals, estimated.surface.normals)
+
+
+@pytest.mark.parametrize("centre", [(0.0, 0, 0), (0.5, 0, 0), (0, 0, 1.0)])
+def test_directions_away_from_a_centre_are_none_though_they_are_better_than_random(
+    centre: tuple[float, float, float],
+) -> None:
+    points, normals = clouds.torus(COUNT)
+    away = unit(points - np.array(centre))
+    assert abs(np.einsum("nc,nc->n", away, normals)).mean() > 0.6
+    assert not are_normals(points, away)
+    noisy = points + 0.02 * np.random.default_rng(1).normal(size=points.shape)
+    assert not are_normals(noisy, away)
+
+
+@pytest.mark.parametrize("shape", clouds.CLOSED)
+def test_normals_with_errors_are_kept(shape: str) -> None:
+    points, normals = clouds.CLOSED[shape](COUNT)
+    random = np.random.default_rng(4)
+    noise = random.normal(size=points.shape)
+    off = unit(normals + np.tan(np.radians(25)) * noise)
+    wrong = np.where(random.random((COUNT, 1)) < 0.3, unit(noise), normals)
+    for directions in (off, wrong):
+        assert are_normals(points, directions)
+        assert are_normals(points + 0.02 * random.normal(size=points.shape), directions)
 
 
 @pytest.mark.parametrize("noise", [0.0, 0.5, 1.5])
