@@ -11,7 +11,6 @@ from numpy.typing import NDArray
 from hdpea.errors import core_errors_translated
 from hdpea.frontend.classes import of_classes
 from hdpea.frontend.classifying import classify
-from hdpea.frontend.copies import first_copies
 from hdpea.frontend.crowds import crowd_means
 from hdpea.frontend.precision import precision_note
 from hdpea.geometry.spatial_order import spatial_order
@@ -86,7 +85,7 @@ class SurfaceCloud:
 
 
 def surface_cloud(cloud: PointCloud, options: CleaningOptions | None = None) -> SurfaceCloud:
-    """Leave out of a cleaned cloud what lies on no surface, and merge copies and what crowds on scan lines.
+    """Leave out of a cleaned cloud what lies on no surface, and merge what crowds on scan lines.
 
     Raises
     ------
@@ -96,10 +95,9 @@ def surface_cloud(cloud: PointCloud, options: CleaningOptions | None = None) -> 
     options = options or CleaningOptions()
     if options.classes is not None:
         cloud = of_classes(cloud, options.classes)
-    cloud, notes = _without_copies(cloud)
     with core_errors_translated():
         rounded = precision_note(cloud.points)
-    notes += () if rounded is None else (rounded,)
+    notes = () if rounded is None else (rounded,)
     if options.outliers == "none":
         return SurfaceCloud(cloud, cloud, len(cloud.points), notes=notes)
     found = classify(cloud.points)
@@ -117,16 +115,6 @@ def surface_cloud(cloud: PointCloud, options: CleaningOptions | None = None) -> 
     dropped = DroppedPoints(cloud.points[gone], reasons)
     notes = (*notes, *dropped_notes(dropped.counts(), len(cloud.points)))
     return SurfaceCloud(left, on_surface, found.shown, spacing, dropped, notes)
-
-
-def _without_copies(cloud: PointCloud) -> tuple[PointCloud, tuple[str, ...]]:
-    """Leave out points that are stored twice but for rounding; they count as those that are equal do."""
-    rows = first_copies(cloud.points)
-    copies = len(cloud.points) - len(rows)
-    if not copies:
-        return cloud, ()
-    left = replace(cloud.at(rows), dropped_duplicates=cloud.dropped_duplicates + copies)
-    return left, (f"Dropped points that occur twice but for rounding: {copies:,}.",)
 
 
 def dropped_notes(counts: dict[str, int], of: int) -> list[str]:

@@ -62,7 +62,7 @@ def _unit(vectors: NDArray[np.float64]) -> NDArray[np.float64]:
 def opposite_faces(faces: NDArray[np.int64]) -> NDArray[np.int64]:
     """Return the face (f, 3) beyond each edge of oriented faces (f, 3): from corner to corner; -1 where none is."""
     starts, ends = faces.ravel(), np.roll(faces, -1, axis=1).ravel()
-    count = int(faces.max()) + 1
+    count = int(faces.max(initial=0)) + 1
     keys, back = starts * count + ends, ends * count + starts
     order = np.argsort(keys)
     at = order[np.searchsorted(keys[order], back).clip(max=len(keys) - 1)]

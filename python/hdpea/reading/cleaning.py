@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from hdpea.errors import UnreadableInput, UsageError
 from hdpea.reading.cloud import MESH_NOTE, PointCloud, from_arrays, from_columns
+from hdpea.reading.copies import first_copies
 from hdpea.reading.objects import Parts, PointsLike, parts_of
 
 UNIT = 1e-15
@@ -60,7 +61,9 @@ def _of_parts(parts: Parts) -> PointCloud:
 
 
 def cleaned(cloud: PointCloud) -> PointCloud:
-    """Drop and count points that are not finite or occur twice (the first stays); normalise the normals.
+    """Drop and count points that are not finite or occur twice, but for rounding; normalise the normals.
+
+    Of equal points the first stays.
 
     Raises
     ------
@@ -68,7 +71,8 @@ def cleaned(cloud: PointCloud) -> PointCloud:
         If no point is left, or one is farther away than can be computed with.
     """
     finite = np.flatnonzero(require_points(cloud))
-    kept = finite[first_occurrences(cloud.points[finite])]
+    distinct = finite[first_occurrences(cloud.points[finite])]
+    kept = distinct[first_copies(cloud.points[distinct])]
     chosen = cloud.at(kept)
     normals = None if chosen.normals is None else unit_or_zero(chosen.normals)
     usable = 0 if normals is None else int(normals.any(axis=1).sum())

@@ -19,6 +19,7 @@ from hdpea import reconstruct
 from hdpea.errors import CannotReconstruct, UnreadableInput, UsageError
 from hdpea.options import Options
 from hdpea.options.settings import filled
+from hdpea.reading.copies import first_copies
 
 
 @dataclass(frozen=True)
@@ -32,9 +33,10 @@ class Case:
 
     @property
     def finite_points(self) -> Array:
-        """The points that count, (n, 3): finite and distinct."""
+        """The points that count, (n, 3): finite and distinct by more than rounding."""
         points = np.asarray(self.points, dtype=np.float64)
-        return np.unique(points[np.isfinite(points).all(axis=1)], axis=0)
+        distinct = np.unique(points[np.isfinite(points).all(axis=1)], axis=0)
+        return distinct[first_copies(distinct)]
 
 
 def cloud(seed: int, most: int = 300) -> Case:

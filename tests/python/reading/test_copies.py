@@ -8,10 +8,8 @@ import pytest
 from helpers.clouds import TAU, Array, sphere_points
 
 from hdpea import reconstruct
-from hdpea.frontend.cleaning import surface_cloud
-from hdpea.frontend.copies import first_copies
-from hdpea.options import CleaningOptions
 from hdpea.reading.cleaning import cleaned_cloud
+from hdpea.reading.copies import first_copies
 
 COUNT = 3000
 GEOREFERENCED = np.array([3.5e5, 5.8e6, 120.0])
@@ -61,18 +59,15 @@ def test_the_order_of_the_points_makes_no_difference() -> None:
     np.testing.assert_array_equal(one, other)
 
 
-@pytest.mark.parametrize("outliers", ["auto", "none"])
-def test_it_is_told_and_what_belongs_to_the_points_goes_with_them(outliers: str) -> None:
+def test_it_is_told_and_what_belongs_to_the_points_goes_with_them() -> None:
     points = with_copies(sphere_points(COUNT), 1e-13)
-    number = np.arange(len(points))
-    cloud = cleaned_cloud(points, points, attributes={"number": number})
-    found = surface_cloud(cloud, CleaningOptions(outliers=outliers))
-    assert found.notes == ("Dropped points that occur twice but for rounding: 100.",)
-    assert found.cloud.counts()["dropped_duplicates"] == 100
-    assert len(found.cloud.points) == COUNT
-    kept = found.cloud.attributes["number"]
-    np.testing.assert_array_equal(found.cloud.points, points[kept])
-    np.testing.assert_array_equal(found.cloud.places(), kept)
+    cloud = cleaned_cloud(points, points, attributes={"number": np.arange(len(points))})
+    assert cloud.notes == ("Dropped points that occur twice: 100.",)
+    assert cloud.counts()["dropped_duplicates"] == 100
+    assert len(cloud.points) == COUNT
+    kept = cloud.attributes["number"]
+    np.testing.assert_array_equal(cloud.points, points[kept])
+    np.testing.assert_array_equal(cloud.places(), kept)
 
 
 def test_a_pipe_is_not_slit_where_its_seam_is_stored_twice() -> None:
