@@ -65,7 +65,7 @@ ROWS = (
 
 
 @click.command()
-@click.option("--runs", default=5, show_default=True, help="of which the median is printed; one above a million points")
+@click.option("--runs", default=5, show_default=True, help="of which the median is printed; one from a million points on")
 @click.option("--only", default="", help="rows whose name holds this")
 @click.option("--scan", type=click.Path(exists=True, path_type=Path), help="a raw scan without normals, too")
 @click.option("--earlier", type=click.Path(exists=True, path_type=Path), help="an earlier hdpea, for the scan")
@@ -78,7 +78,7 @@ def main(runs: int, only: str, scan: Path | None, earlier: Path | None) -> None:
         folder = Path(name)
         for row in (row for row in ROWS if only in row.name):
             cloud = (made_bare if row.bare else made)("knot", row.points, folder)
-            several = 1 if row.points > MILLIONS else runs
+            several = 1 if row.points >= MILLIONS else runs
             ours, plain = [], []
             for _ in range(several):
                 ours.append(run_once(cloud, folder, ("--vertices", str(row.vertices), *row.arguments)))
