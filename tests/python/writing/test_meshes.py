@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 
 from hdpea.errors import UsageError
 from hdpea.reading import read_points
+from hdpea.reading.formats import parse_points
 from hdpea.reading.triangle_mesh import parse_triangle_mesh
 from hdpea.writing.meshes import MESH_FORMATS, write_mesh
 from hdpea.writing.points import write_points
@@ -52,7 +53,9 @@ def test_faces_keep_their_order_and_indices(extension: str, tmp_path: Path) -> N
 @settings(suppress_health_check=[HealthCheck.function_scoped_fixture], max_examples=30)
 def test_every_digit_comes_back(extension: str, tmp_path: Path, vertices: NDArray[np.float64]) -> None:
     write_mesh(tmp_path / f"mesh{extension}", vertices, TETRAHEDRON_FACES)
-    np.testing.assert_array_equal(read_points(tmp_path / f"mesh{extension}").points, vertices)
+    # Not by read_points, to which points that differ by rounding, beside others far away, are one.
+    written = (tmp_path / f"mesh{extension}").read_bytes()
+    np.testing.assert_array_equal(parse_points(written, extension).points, vertices)
 
 
 @pytest.mark.parametrize("extension", MESH_FORMATS)
