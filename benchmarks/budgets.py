@@ -65,7 +65,7 @@ ROWS = (
 
 
 @click.command()
-@click.option("--runs", default=5, show_default=True, help="of which the median is printed; one from a million points on")
+@click.option("--runs", default=5, show_default=True, help="the median is printed; one from a million points on")
 @click.option("--only", default="", help="rows whose name holds this")
 @click.option("--scan", type=click.Path(exists=True, path_type=Path), help="a raw scan without normals, too")
 @click.option("--earlier", type=click.Path(exists=True, path_type=Path), help="an earlier hdpea, for the scan")
