@@ -40,15 +40,13 @@ def facing_out(mesh: Mesh) -> FacedMesh:
     """
     vertices, faces = mesh.vertices_in_unit, mesh.faces.copy()
     hold = _are_as_good_as_closed(mesh)
-    turned = 0
     with core_errors_translated():
-        sideless = _core.face_outwards(vertices, faces).sideless
-        if hold.any():
-            faced = _core.face_outwards(vertices, np.ascontiguousarray(faces[hold]))
-            faces[hold], turned = faced.faces, faced.turned
+        whole = _core.face_outwards(vertices, faces)
+        held = whole if hold.all() else _core.face_outwards(vertices, np.ascontiguousarray(faces[hold]))
+    faces[hold] = held.faces
     guess = "The surface is open: which side is out is a guess, unless `orient` and `viewpoint` say so."
-    notes = (guess,) if sideless > MOST_GUESSED else ()
-    return FacedMesh(replace(mesh, faces=faces, statistics=mesh.statistics | {"pieces_turned": turned}), notes)
+    notes = (guess,) if whole.sideless > MOST_GUESSED else ()
+    return FacedMesh(replace(mesh, faces=faces, statistics=mesh.statistics | {"pieces_turned": held.turned}), notes)
 
 
 def _are_as_good_as_closed(mesh: Mesh) -> NDArray[np.bool_]:
