@@ -10,5 +10,5 @@ void register_piece_sides(nb::module_& module) {
       .def_ro("turned", &FacedMesh::turned, "Closed pieces that were inside out.")
       .def_ro("sideless", &FacedMesh::sideless, "Share of the area in pieces so open that they have no inside.");
   module.def("face_outwards", &hdpea::face_outwards, "vertices"_a, "faces"_a, ReleaseGil(),
-             "Turn closed pieces of negative volume, but for those within another one.");
+             "Turn closed pieces of negative volume, but for those within another one that is as good as closed.");
 }

@@ -17,13 +17,19 @@ namespace {
 
 constexpr double kMostOpen = 0.25;  // vector area of a piece that has an inside, in areas
 constexpr Index kProbes = 5;        // vertices of a piece that vote on whether it is within another
+/// Length of its borders, in square roots of its area, up to which a piece with gaps is as good as closed.
+/// A ball whose hole is a seventh of its radius wide has 0.25; a box without its lid has 1.8, half a ball 2.5.
+constexpr double kMostBorder = 0.25;
 
 struct Piece {
   std::vector<Index> faces;
   Eigen::AlignedBox3d box;
   double area = 0, volume = 0;
   Eigen::RowVector3d vector_area = Eigen::RowVector3d::Zero();
-  bool closed = true;
+  double border = 0;   // length
+  bool closed = true;  // has no border, not even one of length 0
+
+  bool holds_things() const { return border <= kMostBorder * std::sqrt(area); }
 };
 
 class Pieces {
@@ -90,7 +96,11 @@ void Pieces::find_borders() {
   for (std::size_t e = 0; e < edges.size(); ++e) {
     const bool before = e > 0 && edges[e - 1].first == edges[e].first;
     const bool after = e + 1 < edges.size() && edges[e + 1].first == edges[e].first;
-    if (!before && !after) pieces_[piece_of_[edges[e].second]].closed = false;
+    if (before || after) continue;
+    const auto& [ends, face] = edges[e];
+    Piece& piece = pieces_[piece_of_[face]];
+    piece.closed = false;
+    piece.border += (vertices_.row(ends.first) - vertices_.row(ends.second)).norm();
   }
 }
 
@@ -109,10 +119,10 @@ bool Pieces::winds_around(const Piece& piece, const Eigen::RowVector3d& place) c
 bool Pieces::is_within_another(const Piece& piece) const {
   const Index count = static_cast<Index>(piece.faces.size()), probes = std::min(kProbes, count);
   return std::any_of(pieces_.begin(), pieces_.end(), [&](const Piece& other) {
+    if (&other == &piece || !other.holds_things()) return false;
     // Those that touch overlap by a few vertices at most.
     Index within = 0;
-    for (Index k = 0; k < probes && &other != &piece; ++k)
-      within += winds_around(other, corner(piece.faces[k * count / probes], 0));
+    for (Index k = 0; k < probes; ++k) within += winds_around(other, corner(piece.faces[k * count / probes], 0));
     return 2 * within > probes;
   });
 }

@@ -14,9 +14,10 @@ struct FacedMesh {
 
 /// Turns closed pieces of negative volume.
 ///
-/// A piece within another one is left as it is: it may be the wall of a cavity, which faces into that. So are open
-/// pieces. Without an inside are those whose boundary spans more than a quarter of their area: a sphere that lacks its
-/// foot has one, half a sphere has none.
+/// A piece within another one that is closed, but for small gaps, is left as it is: it may be the wall of a cavity,
+/// which faces into that; what lies in an open one is a thing in a bowl. Open pieces are left as they are, too. Without
+/// an inside are those whose boundary spans more than a quarter of their area: a sphere that lacks its foot has one,
+/// half a sphere has none.
 ///
 /// @param vertices  (v, 3), finite
 /// @param faces     (f, 3) manifold and oriented, no vertex in two pieces that do not share an edge

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "hdpea_cpp/base/errors.hpp"
+#include "helpers/shapes.hpp"
 
 namespace hdpea {
 namespace {
@@ -21,7 +22,7 @@ TriangleMesh nested(const std::vector<std::pair<double, bool>>& sizes_and_out) {
     mesh.vertices.middleRows(4 * k, 4) *= size;
     auto faces = mesh.faces.middleRows(4 * k, 4);
     faces << 0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3;
-    if (out) faces.col(1).swap(faces.col(2));
+    if (!out) faces.col(1).swap(faces.col(2));
     faces.array() += 4 * k;
   }
   return mesh;
@@ -50,6 +51,36 @@ TEST(PieceSides, WhatIsOpenIsKept) {
     const FacedMesh faced = face_outwards(given.vertices, faces);
     EXPECT_EQ(faced.faces, faces);
     EXPECT_EQ(faced.sideless, 1);
+  }
+}
+
+TEST(PieceSides, InAnOpenBowlAClosedPieceIsTurned) {
+  for (const bool out : {false, true}) {
+    const Faces given = nested({{1, false}, {0.1, out}}).faces.bottomRows(7);  // the bowl lacks one of its four faces
+    const TriangleMesh sought = nested({{1, false}, {0.1, true}});
+    const FacedMesh faced = face_outwards(sought.vertices, given);
+    EXPECT_EQ(faced.faces, sought.faces.bottomRows(7));
+    EXPECT_EQ(faced.turned, out ? 0 : 1);
+  }
+}
+
+/// A ball that faces in and lacks its south pole, around a tetrahedron that does, too.
+TriangleMesh in_a_ball_with_a_hole(Index rings) {
+  const shapes::Mesh ball = shapes::without_vertices(shapes::sphere(rings, 24), {0});
+  const TriangleMesh inner = nested({{0.1, false}});
+  TriangleMesh both{Points(ball.vertices.rows() + 4, 3), Faces(ball.faces.rows() + 4, 3)};
+  both.vertices << ball.vertices, inner.vertices;
+  both.faces << ball.faces.rowwise().reverse(), (inner.faces.array() + ball.vertices.rows()).matrix();
+  return both;
+}
+
+TEST(PieceSides, AWallOfACavityIsKeptWhereTheBallAroundItHasASmallGap) {
+  for (const auto& [rings, turned] : {std::pair<Index, Index>{24, 0}, {18, 1}}) {  // holes of radius 0.13 and 0.16
+    const TriangleMesh given = in_a_ball_with_a_hole(rings);
+    const FacedMesh faced = face_outwards(given.vertices, given.faces);
+    EXPECT_EQ(faced.turned, turned);
+    EXPECT_EQ(faced.faces == given.faces, turned == 0);
+    EXPECT_EQ(faced.sideless, 0);
   }
 }
 
