@@ -18,7 +18,7 @@ namespace {
 constexpr double kMostOpen = 0.25;  // vector area of a piece that has an inside, in areas
 constexpr Index kProbes = 5;        // vertices of a piece that vote on whether it is within another
 /// Length of its borders, in square roots of its area, up to which a piece with gaps is as good as closed.
-/// A ball whose hole is a seventh of its radius wide has 0.25; a box without its lid has 1.8, half a ball 2.5.
+/// A ball with a hole whose radius is a seventh of its own has 0.25; a box without its lid has 1.8, half a ball 2.5.
 constexpr double kMostBorder = 0.25;
 
 struct Piece {
