@@ -23,15 +23,15 @@ class Cost:
         return self.fixed + for_points + for_vertices
 
 
-# Fitted by benchmarks/cost_fit.py to runs in one piece on clouds of 10,000 to 1,000,000 points, with and without
-# normals, with 1,250 to 100,000 vertices, those of docs/performance.md.
-PROCESSOR_SECONDS = Cost(fixed=3.64, per_thousand_points=0.0853, per_thousand_vertices=0.0978, vertices_power=1.25)
+# Fitted by benchmarks/cost_fit.py to runs in one piece on clouds of 10,000 to 4,000,000 points with normals, and 10,000
+# to 1,000,000 without, with 1,250 to 500,000 vertices, those of docs/performance.md.
+PROCESSOR_SECONDS = Cost(fixed=3.1, per_thousand_points=0.0749, per_thousand_vertices=0.0417, vertices_power=1.45)
 """Processor time of the whole command, all threads together."""
 
-ON_TWO_CORES = 0.73
-"""Seconds on two idle cores for each of the processor: 0.68 and 0.73 of 250,000 and 40,000 points."""
+ON_TWO_CORES = 0.7
+"""Seconds on two idle cores for each of the processor: 0.65 of 4,000,000 points to 0.73 of 40,000."""
 
-PEAK_BYTES = Cost(fixed=264e6, per_thousand_points=2.42e6, per_thousand_vertices=0)
+PEAK_BYTES = Cost(fixed=260e6, per_thousand_points=2.43e6, per_thousand_vertices=0.684e6)
 """Peak resident memory of the process."""
 
 
@@ -40,11 +40,11 @@ WITHOUT_NORMALS = 1.4
 
 TILED_SECONDS = 0.1e-3
 """Seconds for each point of a cloud in tiles, on two cores, whether one process has both or two have one each: 142 s
-for the 1,459,800 ground points of a flight; 0.146 ms of a processor of 10,000,000 (``docs/scaling.md``)."""
+for the 1,459,800 ground points of a flight; 0.137 ms of a processor of 10,000,000 (``docs/scaling.md``)."""
 
 TILED_WHOLE_BYTES = Cost(fixed=0.3e9, per_thousand_points=0, per_thousand_vertices=2.75e6)
 """Memory for the mesh of all tiles, which one process extracts, repairs and measures: 988 MB for 250,000 vertices and
-1,654 MB for 500,000 (``docs/scaling.md``)."""
+1,486 to 1,654 MB for 500,000 (``docs/scaling.md``)."""
 
 TILED_DISK_BYTES = 605
 """Bytes of the disk for each point of a cloud in tiles, while they are worked on (``docs/scaling.md``)."""
