@@ -62,6 +62,16 @@ TEST(GapClosing, ClosesALoopThatWindsAroundTheSurface) {
   EXPECT_EQ(found.genus(), 1);
 }
 
+TEST(GapClosing, ClosesTheGapBetweenTwoLoopsThatMeetInOnePlace) {
+  shapes::Mesh torus = shapes::torus(kAround, kAcross);
+  const Index inner = kAcross / 2;  // where the loops are nearest, as a pinched vertex that was split
+  torus.vertices.row(8 * kAcross + inner) = torus.vertices.row(6 * kAcross + inner);
+  const Faces cut = without(torus, [](Index around, Index) { return around == 7; });
+  const FilledMesh closed = close_gaps(torus.vertices, cut, outward(torus.vertices), 0.8);
+  EXPECT_EQ(closed.left, 0);
+  EXPECT_TRUE(check(closed).manifold() && check(closed).closed());
+}
+
 TEST(GapClosing, LeavesWhatIsLargerOpen) {
   const shapes::Mesh torus = shapes::torus(kAround, kAcross);
   const Faces cut = without(torus, [](Index around, Index) { return around == 7; });
