@@ -21,8 +21,8 @@ namespace {
 
 using Corners = std::array<Index, 3>;
 
-/// All triangulations of a loop take time that grows with the cube of its edges: a fifth of a second for so many.
-constexpr std::size_t kMostEdges = 300;
+/// All triangulations of a loop take time that grows with the cube of its edges: a second for so many.
+constexpr std::size_t kMostEdges = 500;
 /// Cost of an edge's squared length, where twice an area costs 1: all patches of a flat gap have one area.
 constexpr double kEven = 0.01;
 /// Share of a patch's area that must face as the surface does at one of its corners, and the cosine from which it does.

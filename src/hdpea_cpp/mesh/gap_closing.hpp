@@ -14,7 +14,7 @@ namespace hdpea {
 /// a face that turns away from the normals of its corners counts up to three times (Barequet and Sharir 1995). Two
 /// loops that are nowhere farther apart than `max_size` are joined by two faces first. A patch is left out if its size,
 /// 4 area / perimeter, is more than `max_size`, or if it faces against the normals, as one does that closes an outer
-/// border by folding back over the mesh. Loops of more than 300 edges stay open.
+/// border by folding back over the mesh. Loops of more than 500 edges stay open.
 ///
 /// @param vertices  (v, 3)
 /// @param faces     (f, 3) edge- and vertex-manifold, oriented as the normals
