@@ -5,12 +5,6 @@
 #include "hdpea_cpp/mesh/crease_edges.hpp"
 
 void register_crease_alignment(nb::module_& module) {
-  using hdpea::AlignedMesh;
-  nb::class_<AlignedMesh>(module, "AlignedMesh", "A mesh whose edges run along creases.")
-      .def_ro("vertices", &AlignedMesh::vertices, "(v, 3) float64")
-      .def_ro("faces", &AlignedMesh::faces, "(f, 3) int64")
-      .def_ro("moved", &AlignedMesh::moved, "vertices that went onto a crease")
-      .def_ro("flipped", &AlignedMesh::flipped, "edges");
   module.def("align_to_creases", &hdpea::align_to_creases, "vertices"_a, "faces"_a, "creases"_a,
              "fixed"_a = hdpea::Mask(), ReleaseGil(),
              "Move vertices onto creases and flip edges, so that none runs across.");

@@ -23,6 +23,23 @@ struct Crossing {
   Index halfedge, sample;
 };
 
+/// Each lets flips and moves make room for more; most meshes need two.
+constexpr int kRounds = 4;
+/// A vertex moves less than this share of the edges at it; the nearest go first, as they drag the mesh the least.
+constexpr double kNearest = 0.2, kNear = 0.35, kFarthest = 0.7;
+/// What is this near a crease, in its spacings, lies on it already.
+constexpr double kOnCrease = 0.05;
+/// No face may turn by more than the angle of this cosine, nor shrink below this share of its area by a move, or of its
+/// longest edge squared by a flip.
+constexpr double kLeastCosine = 0.1, kLeastShare = 0.05, kLeastOfEdge = 0.02;
+/// An edge crosses a crease that passes by within shares of its length and of the crease's spacing, and not in front of
+/// the sheets that meet there.
+constexpr double kBeside = 0.5, kInFront = 0.25, kOfSpacing = 0.25;
+/// Samples belong to one line whose directions agree to within this cosine, and that are about as far from a vertex.
+constexpr double kSameLine = 0.7, kAsFar = 1.5, kAsFarOfSpacing = 0.1;
+/// A face with all corners on a line is lower than this share of its longest edge, squared.
+constexpr double kFlat = 0.15;
+
 class Alignment {
  public:
   Alignment(const PointsRef& vertices, const FacesRef& faces, const Creases& creases, const MaskRef& fixed)
@@ -32,25 +49,22 @@ class Alignment {
     near_ = lines_.near(vertices_);
   }
 
-  AlignedMesh run() {
+  TriangleMesh run() {
     take_corners();
     hold_those_on_creases();
-    for (int round = 0; round < 4; ++round) {
-      const Index before = moved_ + flipped_;
+    for (int round = 0; round < kRounds; ++round) {
+      const Index before = changes_;
       const std::vector<Crossing> crossings = find_crossings();
-      for (double most : {0.2, 0.35}) snap(crossings, most);
+      for (double most : {kNearest, kNear}) snap(crossings, most);
       flip(crossings);
       snap(crossings, kFarthest);
       flip_flat_faces();
-      if (moved_ + flipped_ == before) break;
+      if (changes_ == before) break;
     }
-    return {vertices_, mesh_.faces(), moved_, flipped_};
+    return {vertices_, mesh_.faces()};
   }
 
  private:
-  /// A vertex moves less than this share of the edges at it.
-  static constexpr double kFarthest = 0.7;
-
   Vector at(Index v) const { return vertices_.row(v); }
 
   Eigen::VectorXd mean_lengths() const {
@@ -81,11 +95,10 @@ class Alignment {
 
   /// Vertices that lie on a crease already: of their edges none crosses it.
   void hold_those_on_creases() {
-    constexpr double nothing = 0.05;
     for (Index v = 0; v < vertices_.rows(); ++v) {
       for (Index s : near_.row(v)) {
         if (held_[v] || s < 0) break;
-        if (lines_.covers(s, at(v)) && lines_.distance(s, at(v)) <= nothing * lines_.spacing(s))
+        if (lines_.covers(s, at(v)) && lines_.distance(s, at(v)) <= kOnCrease * lines_.spacing(s))
           move(v, lines_.foot(s, at(v)));
       }
     }
@@ -101,14 +114,17 @@ class Alignment {
     vertices_.row(v) = to;
     for (std::size_t i = 0; i < around.size(); ++i) {
       const Vector after = area(around[i]);
-      if (after.dot(before[i]) > 0.1 * after.norm() * before[i].norm() && after.norm() > 0.05 * before[i].norm())
-        continue;
+      if (!turns(before[i], after) && after.norm() > kLeastShare * before[i].norm()) continue;
       vertices_.row(v) = from;
       return false;
     }
-    ++moved_;
+    ++changes_;
     held_[v] = true;
     return true;
+  }
+
+  static bool turns(const Vector& before, const Vector& after) {
+    return after.dot(before) <= kLeastCosine * after.norm() * before.norm();
   }
 
   Vector area(Index f) const {
@@ -151,8 +167,8 @@ class Alignment {
     if (side_a * side_b >= 0) return -1;
     const Vector x = a + (b - a) * (side_a / (side_a - side_b));
     const double length = (b - a).norm(), spacing = lines_.spacing(s);
-    if (!lines_.covers(s, x) || lines_.distance(s, x) > 0.5 * length + 0.25 * spacing) return -1;
-    if (std::max(lines_.height(s, a), lines_.height(s, b)) > 0.25 * length + 0.25 * spacing) return -1;
+    if (!lines_.covers(s, x) || lines_.distance(s, x) > kBeside * length + kOfSpacing * spacing) return -1;
+    if (std::max(lines_.height(s, a), lines_.height(s, b)) > kInFront * length + kOfSpacing * spacing) return -1;
     return std::abs(lines_.along(s, x));
   }
 
@@ -183,10 +199,10 @@ class Alignment {
     Index best = sample;
     double least = std::abs(lines_.along(sample, at(v)));
     for (Index s : near_.row(v)) {
-      if (s < 0 || std::abs(lines_.direction(s).dot(lines_.direction(sample))) < 0.7) continue;
+      if (s < 0 || std::abs(lines_.direction(s).dot(lines_.direction(sample))) < kSameLine) continue;
       const double along = std::abs(lines_.along(s, at(v)));
-      if (along >= least || lines_.distance(s, at(v)) > 1.5 * lines_.distance(sample, at(v)) + 0.1 * lines_.spacing(s))
-        continue;
+      const double as_far = kAsFar * lines_.distance(sample, at(v)) + kAsFarOfSpacing * lines_.spacing(s);
+      if (along >= least || lines_.distance(s, at(v)) > as_far) continue;
       best = s;
       least = along;
     }
@@ -199,7 +215,7 @@ class Alignment {
       const Index h = each.halfedge;
       if (mesh_.opposite(h) < 0 || held_[mesh_.source(h)] || held_[mesh_.target(h)]) continue;
       if (!held_[mesh_.apex(h)] || !held_[mesh_.apex(mesh_.opposite(h))]) continue;
-      flipped_ += flip_safely(h);
+      changes_ += flip_safely(h);
     }
   }
 
@@ -209,9 +225,9 @@ class Alignment {
       const Index a = mesh_.source(h), b = mesh_.target(h), c = mesh_.apex(h);
       if (!held_[a] || !held_[b] || !held_[c] || mesh_.opposite(h) < 0) continue;
       const double length = (at(b) - at(a)).norm();
-      if (area(h / 3).norm() > 0.15 * length * length) continue;
+      if (area(h / 3).norm() > kFlat * length * length) continue;
       if (length < (at(c) - at(a)).norm() || length < (at(c) - at(b)).norm()) continue;
-      flipped_ += flip_safely(h);
+      changes_ += flip_safely(h);
     }
   }
 
@@ -221,7 +237,7 @@ class Alignment {
     const Vector before = area(h / 3) + area(o / 3);
     const double longest = std::max((at(a) - at(b)).squaredNorm(), (at(c) - at(d)).squaredNorm());
     for (const Vector& after : {Vector(area_vector(at(c), at(a), at(d))), Vector(area_vector(at(d), at(b), at(c)))}) {
-      if (after.dot(before) < 0.1 * after.norm() * before.norm() || after.norm() < 0.02 * longest) return false;
+      if (turns(before, after) || after.norm() < kLeastOfEdge * longest) return false;
     }
     return mesh_.flip(h);
   }
@@ -234,13 +250,13 @@ class Alignment {
   std::vector<char> held_;  // whether each vertex lies on a crease
   Eigen::VectorXd lengths_;
   Neighbors near_;  // samples of creases near each vertex as it was
-  Index moved_ = 0, flipped_ = 0;
+  Index changes_ = 0;
 };
 
 }  // namespace
 
-AlignedMesh align_to_creases(const PointsRef& vertices, const FacesRef& faces, const Creases& creases,
-                             const MaskRef& fixed) {
+TriangleMesh align_to_creases(const PointsRef& vertices, const FacesRef& faces, const Creases& creases,
+                              const MaskRef& fixed) {
   require_mesh(vertices, faces);
   if (fixed.size() > 0) require_rows(fixed, vertices.rows(), "fixed");
   if (creases.samples.empty() || faces.rows() == 0) return {vertices, faces};

@@ -6,14 +6,6 @@
 
 namespace hdpea {
 
-/// A mesh whose edges run along creases.
-struct AlignedMesh {
-  Points vertices;    ///< (v, 3)
-  Faces faces;        ///< (f, 3)
-  Index moved = 0;    ///< vertices that went onto a crease
-  Index flipped = 0;  ///< edges
-};
-
 /// Moves vertices onto creases and flips edges, so that no edge runs across a crease.
 ///
 /// Of every edge with its ends on the two sides of a crease, the nearer end moves onto it, or the edge is flipped if
@@ -26,7 +18,7 @@ struct AlignedMesh {
 /// @param faces     (f, 3) edge- and vertex-manifold, oriented as the normals of the creases
 /// @param fixed     (v) vertices that stay where they are, or empty: none
 /// @throws InvalidArgument on a broken contract
-AlignedMesh align_to_creases(const PointsRef& vertices, const FacesRef& faces, const Creases& creases,
-                             const MaskRef& fixed = Mask());
+TriangleMesh align_to_creases(const PointsRef& vertices, const FacesRef& faces, const Creases& creases,
+                              const MaskRef& fixed = Mask());
 
 }  // namespace hdpea

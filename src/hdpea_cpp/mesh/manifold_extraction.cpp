@@ -4,15 +4,14 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <tuple>
 #include <utility>
 #include <vector>
 
-#include "hdpea_cpp/base/area_vector.hpp"
 #include "hdpea_cpp/base/checks.hpp"
 #include "hdpea_cpp/base/errors.hpp"
+#include "hdpea_cpp/mesh/candidate_shape.hpp"
 #include "hdpea_cpp/mesh/incremental_manifold.hpp"
 #include "hdpea_cpp/mesh/pinched_vertices.hpp"
 
@@ -23,22 +22,11 @@ using Verdict = IncrementalManifold::Verdict;
 
 double radians(double degrees) { return degrees * std::numbers::pi / 180; }
 
-double circumradius(const CoordinatesRef& x, const Triangle& t) {
-  const double a = (x.row(t[1]) - x.row(t[2])).norm();
-  const double b = (x.row(t[2]) - x.row(t[0])).norm();
-  const double c = (x.row(t[0]) - x.row(t[1])).norm();
-  const double sixteen_squared_areas = (a + b + c) * (b + c - a) * (c + a - b) * (a + b - c);
-  if (sixteen_squared_areas <= 0) return std::numeric_limits<double>::infinity();
-  return a * b * c / std::sqrt(sixteen_squared_areas);
-}
-
 class Extractor {
  public:
   Extractor(const CoordinatesRef& coordinates, const PointsRef& normals,
             const Eigen::Ref<const Eigen::VectorXd>& disk_radii, const ExtractionOptions& options)
-      : coordinates_(coordinates),
-        normals_(normals),
-        disk_radii_(disk_radii),
+      : shape_(coordinates, normals, disk_radii),
         options_(options),
         least_fold_cosine_(std::cos(radians(options.max_fold))),
         least_normal_cosine_(std::cos(radians(options.max_normal_angle))),
@@ -57,22 +45,6 @@ class Extractor {
     auto rank() const { return std::tuple(-count, radius, triangle); }
   };
 
-  Eigen::Vector3d position(Index i) const { return coordinates_.row(i).head<3>().transpose(); }
-  /// The normal of the ascending triangle, of twice its area's length.
-  Eigen::Vector3d area_vector(const Triangle& t) const {
-    return hdpea::area_vector(position(t[0]), position(t[1]), position(t[2]));
-  }
-  /// Positive if the ascending triangle faces the way its points' normals do, times its area.
-  double outwardness(const Triangle& t) const {
-    return (normals_.row(t[0]) + normals_.row(t[1]) + normals_.row(t[2])).dot(area_vector(t).transpose());
-  }
-  /// The middle one of the radii of the corners' disks.
-  double disk_radius(const Triangle& t) const {
-    const double a = disk_radii_(t[0]), b = disk_radii_(t[1]), c = disk_radii_(t[2]);
-    return std::max(std::min(a, b), std::min(std::max(a, b), c));
-  }
-  bool agrees_with_points(const Triangle& triangle, double least_cosine) const;
-  bool faces_both_ways(const Triangle& triangle) const;
   bool folds_back(const Triangle& triangle) const;
   bool touches_enough(const Triangle& triangle, bool bridging);
   bool joins_pieces(Index face, Index vertex);
@@ -83,9 +55,7 @@ class Extractor {
   /// Inserts what shares enough edges with the mesh, until nothing more does; returns what was not inserted.
   std::vector<Candidate> sweep_t12(std::vector<Candidate> waiting, bool bridging);
 
-  const CoordinatesRef& coordinates_;
-  const PointsRef& normals_;
-  const Eigen::Ref<const Eigen::VectorXd>& disk_radii_;
+  CandidateShape shape_;
   const ExtractionOptions& options_;
   double least_fold_cosine_, least_normal_cosine_, least_lone_cosine_;
   IncrementalManifold mesh_;
@@ -94,33 +64,14 @@ class Extractor {
   ExtractionCounts counts_;
 };
 
-bool Extractor::agrees_with_points(const Triangle& triangle, double least_cosine) const {
-  const Eigen::Vector3d normal = area_vector(triangle).normalized();
-  double best = 0;  // at a crease a face lies in the plane of one of its points only
-  for (Index i : triangle) best = std::max(best, std::abs(normals_.row(i).dot(normal.transpose())));
-  return best >= least_cosine;
-}
-
-/// Whether it lies in the planes of two of its points that face opposite ways: of two sheets, or one wrongly oriented.
-bool Extractor::faces_both_ways(const Triangle& triangle) const {
-  const Eigen::Vector3d normal = area_vector(triangle).normalized();
-  double least = 0, most = 0;
-  for (Index i : triangle) {
-    const double cosine = normals_.row(i).dot(normal.transpose());
-    least = std::min(least, cosine);
-    most = std::max(most, cosine);
-  }
-  return -least >= least_normal_cosine_ && most >= least_normal_cosine_;
-}
-
 bool Extractor::folds_back(const Triangle& triangle) const {
-  const Eigen::Vector3d normal = area_vector(triangle).normalized();
+  const Eigen::Vector3d normal = shape_.area_vector(triangle).normalized();
   for (int i = 0; i < 3; ++i) {
     const Index a = triangle[i], b = triangle[(i + 1) % 3];
     const Index neighbor = mesh_.faces_at(a, b)[0];
     if (neighbor < 0) continue;
     const Triangle& other = mesh_.triangles()[neighbor];
-    const double cosine = normal.dot(area_vector(other).normalized());
+    const double cosine = normal.dot(shape_.area_vector(other).normalized());
     if ((IncrementalManifold::opposite_parity(triangle, other, a, b) ? -cosine : cosine) < least_fold_cosine_)
       return true;
   }
@@ -139,7 +90,7 @@ bool Extractor::touches_enough(const Triangle& triangle, bool bridging) {
   }
   if (shared != 1) return shared > 1;
   if (!mesh_.faces_of(opposite).empty()) return bridging && joins_pieces(face, opposite);
-  return agrees_with_points(triangle, least_lone_cosine_);
+  return shape_.agrees_with_points(triangle, least_lone_cosine_);
 }
 
 /// Whether no face of the vertex is in the same edge-connected piece as the face, and one side is a fragment: large
@@ -169,7 +120,7 @@ void Extractor::insert(const Triangle& triangle) {
   mesh_.insert(triangle);
   outward_.push_back(0);
   const auto [representative, flipped] = mesh_.piece_of(face);
-  double outward = flipped ? -outwardness(triangle) : outwardness(triangle);
+  double outward = flipped ? -shape_.outwardness(triangle) : shape_.outwardness(triangle);
   for (const auto& [piece, _] : joined) outward += mesh_.piece_of(piece).second ? -outward_[piece] : outward_[piece];
   outward_[representative] = outward;
 }
@@ -179,9 +130,9 @@ bool Extractor::try_insert(const Candidate& candidate) {
     ++counter;
     return false;
   };
-  if (candidate.radius > options_.max_circumradius * disk_radius(candidate.triangle))
+  if (candidate.radius > options_.max_circumradius * shape_.disk_radius(candidate.triangle))
     return refuse(counts_.refused_size);
-  if (!agrees_with_points(candidate.triangle, least_normal_cosine_)) return refuse(counts_.refused_normal);
+  if (!shape_.agrees_with_points(candidate.triangle, least_normal_cosine_)) return refuse(counts_.refused_normal);
   switch (mesh_.check(candidate.triangle)) {
     case Verdict::crowded_edge:
       return refuse(counts_.refused_edge);
@@ -221,8 +172,7 @@ void Extractor::insert_candidates(const Candidates& candidates) {
   std::vector<Candidate> t3, contested, t12;
   for (Index t = 0; t < candidates.triangles.rows(); ++t) {
     const Triangle triangle{candidates.triangles(t, 0), candidates.triangles(t, 1), candidates.triangles(t, 2)};
-    (candidates.counts(t) == 3 ? t3 : t12)
-        .push_back({triangle, candidates.counts(t), circumradius(coordinates_, triangle)});
+    (candidates.counts(t) == 3 ? t3 : t12).push_back({triangle, candidates.counts(t), shape_.circumradius(triangle)});
   }
   const auto better = [](const Candidate& a, const Candidate& b) { return a.rank() < b.rank(); };
   std::sort(t3.begin(), t3.end(), better);
@@ -231,7 +181,7 @@ void Extractor::insert_candidates(const Candidates& candidates) {
   counts_.t12 = static_cast<Index>(t12.size());
   // What may join two sheets waits until these are large enough to know which way they face.
   for (const Candidate& candidate : t3) {
-    if (faces_both_ways(candidate.triangle)) {
+    if (shape_.faces_both_ways(candidate.triangle, least_normal_cosine_)) {
       contested.push_back(candidate);
     } else {
       counts_.t3_kept += try_insert(candidate);
@@ -265,7 +215,7 @@ ExtractedMesh Extractor::finish() {
   // They were inserted in the order of their radii, which rounding (a cloud in other units) may change.
   std::sort(kept.begin(), kept.end());
   ExtractedMesh extracted;
-  counts_.split_vertices = split_pinched_vertices(kept, coordinates_.rows(), extracted.faces, extracted.sources);
+  counts_.split_vertices = split_pinched_vertices(kept, shape_.vertices(), extracted.faces, extracted.sources);
   extracted.counts = counts_;
   return extracted;
 }

@@ -31,7 +31,7 @@ Creases fold() {
 
 TEST(CreaseAlignment, LeavesNoEdgeAcrossTheCrease) {
   const auto grid = folded_grid();
-  const AlignedMesh aligned = align_to_creases(grid.vertices, grid.faces, fold());
+  const TriangleMesh aligned = align_to_creases(grid.vertices, grid.faces, fold());
   for (const auto& face : aligned.faces.rowwise()) {
     bool first = false, second = false;
     for (Index v : face) {
@@ -45,7 +45,7 @@ TEST(CreaseAlignment, LeavesNoEdgeAcrossTheCrease) {
 
 TEST(CreaseAlignment, KeepsTheTopology) {
   const auto grid = folded_grid();
-  const AlignedMesh aligned = align_to_creases(grid.vertices, grid.faces, fold());
+  const TriangleMesh aligned = align_to_creases(grid.vertices, grid.faces, fold());
   const MeshCheck before = check_mesh(grid.vertices, grid.faces), after = check_mesh(aligned.vertices, aligned.faces);
   EXPECT_TRUE(after.manifold() && after.oriented());
   EXPECT_EQ(after.euler_characteristic, before.euler_characteristic);
@@ -54,7 +54,7 @@ TEST(CreaseAlignment, KeepsTheTopology) {
 
 TEST(CreaseAlignment, WithoutCreasesChangesNothing) {
   const auto grid = folded_grid();
-  const AlignedMesh same = align_to_creases(grid.vertices, grid.faces, {});
+  const TriangleMesh same = align_to_creases(grid.vertices, grid.faces, {});
   EXPECT_EQ(same.vertices, grid.vertices);
   EXPECT_EQ(same.faces, grid.faces);
   EXPECT_EQ(crease_edges(grid.vertices, grid.faces, {}).rows(), 0);

@@ -60,7 +60,7 @@ def _simplify(**arrays: Any) -> None:
 
 
 CALLS: dict[str, tuple[Callable[..., Any], Arguments]] = {
-    "agree_on_signs": (_core.agree_on_signs, _cloud() | {"least_cosine": 0.9}),
+    "agree_on_signs": (_core.agree_on_signs, _cloud()),
     "align_to_creases": (lambda **arrays: _core.align_to_creases(creases=CREASES, **arrays), _mesh()),
     "blended_normals": (_core.blended_normals, {"normals": NORMALS, "sheet_neighbors": NEIGHBORS}),
     "check_mesh": (_core.check_mesh, _mesh()),
