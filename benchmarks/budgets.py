@@ -121,7 +121,7 @@ def print_row(
     seconds, processor, memory = (median(run[key] for run in ours) for key in ("seconds", "cpu", "memory"))
     turns = f"{of}: {median(others):.2f} s, ratio {seconds / median(others):.2f}" if others else ""
     click.echo(
-        f"| {name} | {vertices:,} | {seconds:.2f} | {aimed[0]:,.1f} | {processor:.1f} | {memory / 1024:.2f} "
+        f"| {name} | {vertices:,} | {seconds:.2f} | {aimed[0]:,.1f} | {processor:.1f} | {memory / 1000:.2f} "
         f"| {aimed[1]:.1f} | {turns} |"
     )
 

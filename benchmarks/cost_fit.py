@@ -70,7 +70,7 @@ def measured(points: int, vertices: int, bare: bool) -> Measured:
         folder = Path(name)
         cloud = (made_bare if bare else made)("knot", points, folder)
         run = run_once(cloud, folder, ("--vertices", str(vertices)))
-    return {"seconds": run["cpu"], "bytes": run["memory"] * 2**20}
+    return {"seconds": run["cpu"], "bytes": run["memory"] * 1e6}
 
 
 def fitted(runs: dict[str, Measured], what: str, powers: NDArray[np.float64]) -> Cost:

@@ -43,7 +43,7 @@ def run_once(cloud: Path, folder: Path, arguments: tuple[str, ...]) -> Run:
         raise click.ClickException(f"exit code {os.waitstatus_to_exitcode(status)} of: {' '.join(command)}")
     made = json.loads(report.read_text())
     # What the system says is the peak since the last stage began, as measuring a stage resets it.
-    memory = max(stage["peak_bytes"] for stage in made["stages"]) / 2**20
+    memory = max(stage["peak_bytes"] for stage in made["stages"]) / 1e6
     return {"seconds": seconds, "cpu": usage.ru_utime + usage.ru_stime, "memory": memory, "report": made}
 
 
