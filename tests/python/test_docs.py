@@ -47,6 +47,14 @@ def test_the_headline_is_that_of_the_suite() -> None:
     assert written == headline_table(), f"paste this between the marks of docs/comparison.md:\n{headline_table()}"
 
 
+def test_the_notice_says_of_the_weights_what_the_docs_say() -> None:
+    notice = (ROOT / "NOTICE").read_text().split("The weights ")[1]
+    included = (ROOT / "docs/training.md").read_text().split("## The included weights")[1]
+    assert re.findall(r"([\d,]+) meshes", notice) == re.findall(r"\*\*Data\.\*\* ([\d,]+) closed meshes", included)
+    licences = " ".join(re.findall(r"\*\*Licences of the meshes\.\*\* (.*?)\.", included, re.DOTALL)[0].split())
+    assert all(part in " ".join(notice.split()) for part in re.split(r"[,;] ", licences))
+
+
 def kinds_of_error(kind: type[HdpeaError] = HdpeaError) -> set[type[HdpeaError]]:
     return {kind}.union(*(kinds_of_error(each) for each in kind.__subclasses__()))
 
