@@ -172,10 +172,13 @@ def _mesh_of_particles(
             mesh = without_lids(mesh, surface) if chosen else mesh
             attempts.append(replace(mesh, choices=(*choices, *mesh.choices)))
             tell(progress, "meshing", 1)
-        excess = Budget.of(options.meshing).excess(attempts[-1])
+        # Under an error a size is the most there may be, which no attempt has to come to.
+        excess = 0.0 if options.meshing.any_size else Budget.of(options.meshing).excess(attempts[-1])
         if excess >= 0:
             return attempts[-1]
-        count = min(round(count / (1 + excess)), len(surface.points_in_unit))
+        before, count = count, min(round(count / (1 + excess)), len(surface.points_in_unit))
+        if count == before:
+            break
     return max(attempts, key=lambda mesh: len(mesh.vertices_in_unit))
 
 

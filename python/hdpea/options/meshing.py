@@ -55,11 +55,13 @@ class MeshingOptions(Checked):
 
     @property
     def any_size(self) -> bool:
-        """Whether no number of vertices or faces is asked for."""
-        return self.vertices is None and self.faces is None
+        """Whether the mesh need not have any number of vertices or faces: with an error it is only the most."""
+        return self.error is not None or (self.vertices is None and self.faces is None)
 
     def vertices_of(self, points: int) -> int:
         """Return how many vertices to make of so many points: a closed mesh has two faces for each."""
-        if self.vertices is not None:
+        if self.error is None and self.vertices is not None:
             return self.vertices
-        return self.faces // 2 + 2 if self.faces is not None else max(points // POINTS_PER_VERTEX, 12)
+        if self.error is None and self.faces is not None:
+            return self.faces // 2 + 2
+        return max(points // POINTS_PER_VERTEX, 12)
