@@ -55,6 +55,16 @@ def test_the_notice_says_of_the_weights_what_the_docs_say() -> None:
     assert all(part in " ".join(notice.split()) for part in re.split(r"[,;] ", licences))
 
 
+def test_the_journeys_tell_the_times_of_the_tables() -> None:
+    pages = {name: (ROOT / f"docs/{name}.md").read_text() for name in ("journeys", "performance", "scaling")}
+    (row,) = re.findall(r"^\| 250,000, normals \|.*", pages["performance"], re.MULTILINE)
+    seconds, memory = (row.split(" | ")[column] for column in (2, 5))
+    assert f"250,000 points with normals took {float(seconds):.0f} s and {memory} GB" in pages["journeys"]
+    ((clock, processor),) = re.findall(r"([\d,]+) s by the clock and ([\d,]+) s of a processor", pages["scaling"])
+    assert f"took {processor} s of a processor, {clock} s by the clock" in pages["journeys"]
+    assert f"{4 * int(clock) / 60:.0f} minutes on two cores" in pages["journeys"]
+
+
 def kinds_of_error(kind: type[HdpeaError] = HdpeaError) -> set[type[HdpeaError]]:
     return {kind}.union(*(kinds_of_error(each) for each in kind.__subclasses__()))
 
