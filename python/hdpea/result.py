@@ -14,8 +14,11 @@ from numpy.typing import NDArray
 from hdpea.frontend.cleaning import DroppedPoints
 from hdpea.geometry.texture import Texture
 from hdpea.report.report import Report
-from hdpea.writing.meshes import level_path, write_mesh
+from hdpea.runtime.marks import check_replaceable
+from hdpea.writing.meshes import write_mesh
 from hdpea.writing.objects import as_open3d, as_pyvista, as_trimesh
+from hdpea.writing.outputs import level_path, mesh_outputs
+from hdpea.writing.placement import Placement
 
 if TYPE_CHECKING:
     import pyvista
@@ -73,12 +76,25 @@ class Reconstruction:
         Raises
         ------
         UsageError
-            As ``hdpea.write_mesh`` does; no file that is not a mesh of hdpea's is replaced, unless by `force`.
+            As ``hdpea.write_mesh`` does, before anything is written: no file that hdpea did not make is replaced,
+            unless by `force`.
         """
+        path = Path(path)
+        check_replaceable(self._outputs(path), force)
         write_mesh(path, self.vertices, self.faces, self.attributes, self.crs, self.texture, up=up, force=force)
         for number, level in enumerate(self.levels, start=1):
-            beside = level_path(Path(path), number)
+            beside = level_path(path, number)
             write_mesh(beside, level.vertices, level.faces, level.attributes, self.crs, up=up, force=force)
+
+    def _outputs(self, path: Path) -> dict[Path, str]:
+        """Return all files that ``write`` writes, and the kind of each."""
+        meshes: dict[Path, Reconstruction | Level] = {path: self}
+        meshes |= {level_path(path, number): level for number, level in enumerate(self.levels, start=1)}
+        outputs = dict[Path, str]()
+        for each, mesh in meshes.items():
+            placed = Placement.of(mesh.vertices, mesh.faces, path.suffix.lower(), self.crs, up="z").is_worth_a_file()
+            outputs |= mesh_outputs(each, textured=each == path and self.texture is not None, placed=placed)
+        return outputs
 
     def to_trimesh(self) -> trimesh.Trimesh:
         """Return it with colours, the other attributes as ``vertex_attributes``."""

@@ -41,21 +41,16 @@ class Job:
 
     def outputs(self) -> list[tuple[Path, str]]:
         """Return the files that are to be written, and the kind of each."""
-        from hdpea.writing.meshes import level_path
-        from hdpea.writing.obj import texture_files
-        from hdpea.writing.placement import placement_file
+        from hdpea.writing.outputs import level_path, mesh_outputs
 
-        mesh = self.destination.output
-        meshes = [] if mesh is None else [mesh, *(level_path(mesh, n) for n in range(1, self.options.meshing.lod))]
+        mesh, outputs = self.destination.output, list[tuple[Path, str]]()
+        if mesh is not None:
+            outputs += mesh_outputs(mesh, textured=self.options.texture is not None)
+            for number in range(1, self.options.meshing.lod):
+                outputs += mesh_outputs(level_path(mesh, number), textured=False)
         kinds = {"report": self.report, "picture": self.picture, "page": self.page}
         kinds["set of dropped points"] = self.dropped
-        if mesh is not None and mesh.suffix.lower() == ".obj" and self.options.texture is not None:
-            kinds |= texture_files(mesh)
-        return [
-            *((path, "mesh") for path in meshes),
-            *((placement_file(path), "placement") for path in meshes),
-            *((path, kind) for kind, path in kinds.items() if path is not None),
-        ]
+        return outputs + [(path, kind) for kind, path in kinds.items() if path is not None]
 
 
 def make_mesh(job: Job, progress: ProgressCallback | None) -> Report:

@@ -19,6 +19,7 @@ from hdpea.writing.content import MeshContent
 from hdpea.writing.glb import glb
 from hdpea.writing.marking import marked
 from hdpea.writing.obj import lines, obj, png, write_texture_files
+from hdpea.writing.outputs import mesh_outputs
 from hdpea.writing.placement import Placement, loses_digits, write_placement
 from hdpea.writing.ply import mesh_ply
 
@@ -26,17 +27,6 @@ Points = NDArray[np.float64]
 Faces = NDArray[np.int64]
 
 TEXTURED_FORMATS = (".obj", ".glb")
-
-
-def level_path(path: Path, number: int) -> Path:
-    """Return where a coarser level of the mesh at `path` is written: beside it, as mesh.lod1.obj for the first.
-
-    Examples
-    --------
-    >>> level_path(Path("out/mesh.obj"), 2).as_posix()
-    'out/mesh.lod2.obj'
-    """
-    return path.with_name(f"{path.stem}.lod{number}{path.suffix}")
 
 
 def write_mesh(
@@ -77,7 +67,7 @@ def write_mesh(
         GLB: the axis of the vertices that is up, ``"z"``, ``"y"`` or ``"-y"``, as before a depth camera; default: z
         where `crs` is known, else the one that the shape shows (``hdpea.geometry.upright``).
     force
-        Whether a file that is no mesh of hdpea's may be replaced.
+        Whether a file that hdpea did not make may be replaced, be it the mesh or one beside it.
 
     Raises
     ------
@@ -86,9 +76,10 @@ def write_mesh(
     """
     path = Path(path)
     check_output(path, MESH_FORMATS)
-    check_replaceable({path: "mesh"}, force)
     extension = path.suffix.lower()
     content, placement = mesh_content(extension, vertices, faces, attributes, crs, texture, path.stem, up)
+    outputs = mesh_outputs(path, textured=texture is not None, placed=placement.is_worth_a_file())
+    check_replaceable(dict(outputs), force)
     if texture is not None and extension == ".obj":
         write_texture_files(path, texture)
     with replacing(path) as partial:
