@@ -49,7 +49,7 @@ def command(source: str, as_json: bool, memory: float | None, classes: Classes |
 
 
 def _facts(source: str, classes: Classes | None) -> CloudFacts:
-    from hdpea.frontend.classes import of_classes, stream_of_classes
+    from hdpea.frontend.classes import of_classes
     from hdpea.reading import read_points
     from hdpea.reading.streaming import stream_of
     from hdpea.report.inspection import inspect
@@ -59,7 +59,7 @@ def _facts(source: str, classes: Classes | None) -> CloudFacts:
     if stream is None or stream.count <= MOST_WHOLE:
         cloud = read_points(source)
         return inspect(cloud if classes is None else of_classes(cloud, classes))
-    return inspect_stream(stream if classes is None else stream_of_classes(stream, classes))
+    return inspect_stream(stream, classes)
 
 
 def _as_json(facts: CloudFacts, resources: Resources) -> str:

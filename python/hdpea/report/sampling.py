@@ -8,6 +8,8 @@ from dataclasses import replace
 
 import numpy as np
 
+from hdpea.frontend.classes import stream_of_classes
+from hdpea.options.classes import Classes
 from hdpea.reading.cleaning import cleaned
 from hdpea.reading.cloud import PointCloud
 from hdpea.reading.streaming import PointStream
@@ -18,13 +20,27 @@ MOST_WHOLE, SAMPLED = 1_000_000, 200_000
 """Points from which on a cloud that can be streamed is looked at by a sample, and how large that is, about."""
 
 
-def inspect_stream(stream: PointStream) -> CloudFacts:
-    """Go through a cloud once, and tell what so many random points of it show.
+def inspect_stream(stream: PointStream, classes: Classes | None = None) -> CloudFacts:
+    """Go through a cloud once, and tell what so many random points of it show; all of them if they are no more.
 
     Extents are those of all points; counts and spacings are made of the sample's, by what share it is of the cloud.
+
+    Parameters
+    ----------
+    classes
+        The only ones that count; these are counted in a pass of its own, since few of the cloud may be of them.
+        Default: all points.
+
+    Raises
+    ------
+    UsageError
+        If the points have no classes, or none has one of these.
     """
-    random = np.random.default_rng(0)
-    share = min(SAMPLED / stream.count, 1.0)
+    random, count = np.random.default_rng(0), stream.count
+    if classes is not None:
+        stream = stream_of_classes(stream, classes)
+        count = sum(len(chunk.points) for chunk in stream.chunks())
+    share = min(SAMPLED / count, 1.0)
     low, high = np.full(3, np.inf), np.full(3, -np.inf)
     pieces, total = list[PointCloud](), 0
     for chunk in stream.chunks():
@@ -41,6 +57,7 @@ def inspect_stream(stream: PointStream) -> CloudFacts:
     kept = counts["points"] - counts["dropped_strays"] - counts["dropped_on_lines"]
     looked_at = f"By {len(sample.points):,} random points of {total:,}"
     note = f"{looked_at}: counts and spacings are estimates; the lines below are of these."
+    notes = facts.notes if share == 1 else [note, *facts.notes]
     return replace(
         facts,
         counts=counts,
@@ -54,7 +71,7 @@ def inspect_stream(stream: PointStream) -> CloudFacts:
         default_vertices=vertices,
         estimated_seconds=seconds_of_run(kept, vertices),
         estimated_peak_bytes=PEAK_BYTES.of(kept, vertices),
-        notes=[note, *facts.notes],
+        notes=notes,
     )
 
 
