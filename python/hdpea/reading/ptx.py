@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from hdpea.errors import UnreadableInput
 from hdpea.reading.cloud import PointCloud
-from hdpea.reading.tables import parse_table
+from hdpea.reading.tables import count_of, parse_table
 
 _NUMBER = rb"[ \t]*[-+.\deE]+"
 _ROW = rb"(?:" + _NUMBER + rb"){%d}\s*\n"
@@ -60,7 +60,7 @@ def _scans(lines: Sequence[str]) -> Iterator[_Scan]:
         body = start + HEADER
         if len(lines) < body:
             raise UnreadableInput("it ends in the header of a scan.", "It may have been cut off while being copied.")
-        count = int(lines[start]) * int(lines[start + 1])
+        count = count_of(lines[start]) * count_of(lines[start + 1])
         sensor = parse_table(lines[start + 2 : start + 3], start + 3, 3)[0]
         transform = parse_table(lines[start + 6 : body], start + 7, 4)
         if len(lines) < body + count:

@@ -17,6 +17,9 @@ UNIT_SHARE = 0.95
 _NOT_A_NUMBER = re.compile(r"[-+]?(?:nan\(\w*\)|1\.#(?:IND|QNAN|SNAN|INF|IO|QO|J|R)\d*)(?![^\s,;\"'])", re.IGNORECASE)
 """What Windows writes for NaN and infinity; the short ones where few decimals are written."""
 
+MOST_DIGITS = 18
+"""Digits of a count: no file has more points, and of thousands Python makes no number."""
+
 MOST_QUOTED = 60
 """Characters of a line that an error quotes."""
 
@@ -31,6 +34,21 @@ class BadLine(UnreadableInput):
         quoted = content if len(content) <= MOST_QUOTED else f"{content[:MOST_QUOTED]}..."
         super().__init__(f"line {number} reads {quoted!r}, {fault}.")
         self.number, self.fault = number, fault
+
+
+def count_of(digits: str) -> int:
+    """Return the number of points that a line announces.
+
+    Raises
+    ------
+    UnreadableInput
+        If it has more than ``MOST_DIGITS`` digits.
+    """
+    digits = digits.strip()
+    if len(digits) > MOST_DIGITS:
+        hint = "Correct the count or delete it."
+        raise UnreadableInput(f"it announces points by a number of {len(digits):,} digits.", hint)
+    return int(digits)
 
 
 def parse_table(lines: Sequence[str], first_line: int = 1, width: int | None = None) -> NDArray[np.float64]:

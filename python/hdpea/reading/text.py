@@ -16,6 +16,7 @@ from hdpea.reading.names import coordinates_among, plain_name
 from hdpea.reading.tables import (
     BadLine,
     comma_is_decimal,
+    count_of,
     is_number,
     name_columns,
     parse_table,
@@ -68,7 +69,7 @@ def parse_text(data: bytes, normals_expected: bool = False) -> PointCloud:
     body = text[start.offset :]
     announced = 0
     if start.counted is not None:
-        announced = start.counted + sum(map(int, _COUNT.findall(body)))
+        announced = start.counted + sum(map(count_of, _COUNT.findall(body)))
         body = _COUNT.sub("", body)
     if _COMMENT.search(body):
         body = _COMMENT.sub("", body)
@@ -180,7 +181,7 @@ def _find_numbers(text: str) -> _Start:
             return _Start(offset, line_number, content, separator, not all(numbers), header, counted, numbered)
         elif numbers == [True]:
             # The count of points that PTS files begin with.
-            counted = int(tokens[0]) if tokens[0].isdecimal() else counted
+            counted = count_of(tokens[0]) if tokens[0].isdecimal() else counted
         elif not _is_below_names(tokens, header):
             header = tokens
         offset += len(line)
