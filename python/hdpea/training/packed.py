@@ -23,6 +23,7 @@ from hdpea.errors import UnreadableInput
 from hdpea.geometry.metric import ScaledMetric
 from hdpea.geometry.spatial_order import spatial_order
 from hdpea.geometry.unit_frame import UnitFrame
+from hdpea.runtime.marks import mark_of
 from hdpea.runtime.outputs import replacing
 from hdpea.training.crops import Samples
 
@@ -30,6 +31,9 @@ FORMAT = "1"
 """Counts up whenever the meaning of the file changes."""
 
 PACKED_FORMATS = (".safetensors",)
+
+KIND = "packed dataset"
+"""What such a file is marked as."""
 
 COLUMNS = {"points": 3, "normals": 3, "psi": 5, "surface_points": 3, "estimated_normals": 3}
 """Columns of each array of a sample; the last two only where they differ from others, or are there at all."""
@@ -55,7 +59,8 @@ def write_packed(path: Path, samples: Samples) -> None:
             ranges[each] = [low.tolist(), high.tolist()]
         described[name] = {"spacing": samples.spacing(name), "ranges": ranges}
     metric = {name: getattr(samples.metric, name) for name in samples.metric.__dataclass_fields__}
-    content = {"metric": metric, "samples": described}
+    # The mark first: metadata come in any order, and the rest of the content may be long.
+    content = {"generator": mark_of(KIND), "metric": metric, "samples": described}
     with replacing(path) as partial:
         save_file(arrays, partial, {"hdpea_packed": FORMAT, "content": json.dumps(content)})
 

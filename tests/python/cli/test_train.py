@@ -14,6 +14,7 @@ from helpers.networks import torus_sample
 from hdpea.cli import run
 from hdpea.dataset.manifest import Manifest, MeshEntry, SampleEntry, write_manifest
 from hdpea.dataset.sample_file import encoded
+from hdpea.network.weights import SHIPPED
 from hdpea.training.checkpoint import Checkpoint
 from hdpea.training.options import PRESETS
 
@@ -41,12 +42,21 @@ def test_a_training_starts_and_goes_on(dataset: str, tmp_path: Path) -> None:
     assert [line["step"] for line in lines] == [1, 2]
 
 
-def test_a_dataset_is_packed_once_and_trained_on(dataset: str, tmp_path: Path) -> None:
+def test_a_dataset_is_packed_and_trained_on(dataset: str, tmp_path: Path) -> None:
     packed, out = str(tmp_path / "packed.safetensors"), tmp_path / "out"
-    assert [run(["dataset", "pack", dataset, packed]) for _ in range(2)] == [0, 2]
+    assert run(["dataset", "pack", dataset, packed]) == 0
     assert run(["train", packed, str(out), "--steps", "1", *SMALL]) == 0
     first = ["--start", str(out / "last.safetensors")]
     assert run(["train", dataset, str(tmp_path / "more"), "--steps", "1", *first, *SMALL]) == 0
+
+
+def test_packing_replaces_its_own_file_and_no_other(dataset: str, tmp_path: Path) -> None:
+    packed = tmp_path / "packed.safetensors"
+    assert [run(["dataset", "pack", dataset, str(packed)]) for _ in range(2)] == [0, 0]
+    packed.write_bytes(SHIPPED.read_bytes())
+    assert run(["dataset", "pack", dataset, str(packed)]) == 2
+    assert packed.read_bytes() == SHIPPED.read_bytes()
+    assert run(["dataset", "pack", dataset, str(packed), "--force"]) == 0
 
 
 def test_flags_win_over_the_preset(dataset: str, tmp_path: Path) -> None:

@@ -12,8 +12,9 @@ from helpers.networks import METRIC, QUICK, SPACING, TINY, InMemory, network_of,
 
 from hdpea.errors import UnreadableInput
 from hdpea.network.weights import write_weights
+from hdpea.runtime.marks import is_marked
 from hdpea.training.loop import train
-from hdpea.training.packed import Packed, write_packed
+from hdpea.training.packed import KIND, Packed, write_packed
 
 
 def test_packed_samples_are_those_packed_to_sixteen_bits(tmp_path: Path) -> None:
@@ -32,6 +33,15 @@ def test_packed_samples_are_those_packed_to_sixteen_bits(tmp_path: Path) -> None
     assert packed.read("clean").estimated_normals is None
     np.testing.assert_allclose(read.estimated_normals, -read.normals, atol=4e-5)
     assert train(packed, None, tmp_path, TINY, replace(QUICK, steps=1)).step == 1
+
+
+def test_many_samples_do_not_hide_the_mark(tmp_path: Path) -> None:
+    sample = InMemory().data["0"]
+    samples = InMemory({f"a rather long name of a sample, {number}": sample for number in range(50)})
+    for attempt in range(5):  # metadata are written in any order
+        path = tmp_path / f"{attempt}.safetensors"
+        write_packed(path, samples)
+        assert is_marked(path, KIND)
 
 
 def test_what_is_not_packed_is_refused(tmp_path: Path) -> None:

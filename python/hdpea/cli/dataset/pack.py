@@ -10,7 +10,6 @@ import click
 from hdpea.cli.groups import GroupedCommand
 from hdpea.cli.parameters import force_option
 from hdpea.cli.types import PATH
-from hdpea.errors import UsageError
 
 EPILOG = """\b
 Examples:
@@ -30,14 +29,14 @@ def command(datasets: tuple[Path, ...], output: Path, force: bool) -> None:
     training looks at, in 16 bits, and no licences: keep the data cards.
     """
     from hdpea.dataset.loading import Dataset
+    from hdpea.runtime.marks import check_replaceable
     from hdpea.runtime.outputs import check_output
     from hdpea.runtime.pytorch import check_pytorch
 
     check_pytorch()
     from hdpea.training.joined import Joined
-    from hdpea.training.packed import PACKED_FORMATS, write_packed
+    from hdpea.training.packed import KIND, PACKED_FORMATS, write_packed
 
     check_output(output, PACKED_FORMATS)
-    if output.exists() and not force:
-        raise UsageError(f"{output} is there already.", "Choose another name, or say `force=True` to replace it.")
+    check_replaceable({output: KIND}, force)
     write_packed(output, Joined([Dataset(folder) for folder in datasets]))
