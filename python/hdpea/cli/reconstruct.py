@@ -126,6 +126,11 @@ def command(
         raise UsageError(
             "`report`, `dropped`, `picture` and `page` are of one mesh, not of several.", "`as_json` tells of each."
         )
+    if out_dir is not None and (work_dir is not None or verbose):
+        raise UsageError(
+            "`work_dir` and `verbose` are for one mesh, not for several.",
+            "Tiles lie in `out_dir` meanwhile; `as_json` tells what was chosen.",
+        )
     if out_dir is not None:
         files = _without_own(files, quiet)
     # The processes of several meshes share the memory; each works on its tiles, if any, alone.

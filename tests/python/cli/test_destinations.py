@@ -49,6 +49,8 @@ def scans(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
         ["a.ply", "b.ply", "m.obj", "--merge", "--dropped", "b.ply"],
         ["a.ply", "b.ply", "--out-dir", "m", "--merge"],
         ["a.ply", "b.ply", "--out-dir", "m", "--report", "r.json"],
+        ["a.ply", "b.ply", "--out-dir", "m", "--work-dir", "w"],
+        ["a.ply", "b.ply", "--out-dir", "m", "--verbose"],
         ["a.ply", "b.ply", "./a.ply", "--out-dir", "m"],
         ["a.ply", "m.obj", "--format", "stl"],
         ["a.ply", "-"],
