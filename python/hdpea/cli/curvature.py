@@ -13,7 +13,7 @@ from hdpea.cli.destinations import require_no_scan
 from hdpea.cli.groups import GroupedCommand, GroupedOption
 from hdpea.cli.parameters import force_option, quiet_option, setting_options
 from hdpea.cli.types import PATH
-from hdpea.curvature.options import CurvatureOptions
+from hdpea.curvature.options import NORMAL_NEIGHBORS_HELP, CurvatureOptions
 from hdpea.options.settings import filled
 from hdpea.runtime.marks import check_replaceable
 from hdpea.runtime.outputs import check_distinct, check_output
@@ -29,6 +29,8 @@ Exit codes: 0 ok, 1 internal error, 2 usage, 3 unreadable input,
 4 cannot reconstruct, 130 interrupted.
 """
 
+HELPS = {"normal_neighbors": NORMAL_NEIGHBORS_HELP}
+
 
 @click.command(cls=GroupedCommand, epilog=EPILOG, no_args_is_help=True, short_help="Estimate curvature tensors.")
 @click.argument("source", metavar="IN", type=click.Path())
@@ -43,7 +45,7 @@ Exit codes: 0 ok, 1 internal error, 2 usage, 3 unreadable input,
 @force_option
 @click.option("--json", "as_json", cls=GroupedOption, is_flag=True, help="print what was chosen and found as JSON")
 @quiet_option
-@setting_options("estimation", "cleaning", "normals", "embedding", "run", owner=CurvatureOptions)
+@setting_options("estimation", "cleaning", "normals", "embedding", "run", owner=CurvatureOptions, helps=HELPS)
 def command(
     *,
     source: str,

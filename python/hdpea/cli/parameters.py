@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Mapping
+from dataclasses import replace
 from typing import Any, TypeVar
 
 import click
@@ -44,13 +45,16 @@ def setting_options(
     without: Collection[str] = (),
     owner: type[Any] = Options,
     heading: str | None = None,
+    helps: Mapping[str, str] | None = None,
 ) -> Callable[[Decorated], Decorated]:
     """Add a flag for every setting of the given stages of the options `owner`, in their order.
 
     Settings `also` are added from whatever stage, those `without` are left out. The help lists them under the name
-    of their stage, or all under `heading`.
+    of their stage, or all under `heading`, with the texts of `helps`, by setting, in place of their own.
     """
+    helps = helps or {}
     known = [each for each in settings(owner) if each.name not in without]
+    known = [replace(each, help=helps.get(each.name, each.help)) for each in known]
     flags = {each.name: _flag_of(each) for each in known}
     chosen = [each for each in known if each.name in also]
     chosen += [each for stage in stages for each in known if each.stage == stage and each.name not in also]

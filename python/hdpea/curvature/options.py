@@ -17,6 +17,12 @@ NORMAL_NEIGHBORS_PER_NOISE, MOST_NORMAL_NEIGHBORS = 400, 200
 
 The slope of a plane has the standard error 2 sqrt(pi) noise / (spacing n) with n neighbours: here half a degree."""
 
+NORMAL_NEIGHBORS_HELP = (
+    f"nearest points whose plane gives an estimated normal; default: {NORMAL_NEIGHBORS_PER_NOISE} for each spacing of "
+    f"noise, at most {MOST_NORMAL_NEIGHBORS}; for jet, and where the points are clean, as `hdpea reconstruct` takes"
+)
+"""Of `normal_neighbors`, of which other stages take fewer."""
+
 JET_NEIGHBORS = 24
 """Of a jet where the points are clean: fewer are no better."""
 

@@ -12,6 +12,7 @@ from helpers import clouds
 from hdpea import CurvatureTensors, estimate_curvature
 from hdpea.cli import run
 from hdpea.curvature import writing
+from hdpea.curvature.options import MOST_NORMAL_NEIGHBORS
 from hdpea.curvature.writing import CURVATURE_FORMATS, arrays_of, columns_of, write_curvature
 from hdpea.errors import UsageError
 from hdpea.reading import read_points
@@ -124,6 +125,11 @@ def test_errors_have_their_codes(scan: Path, tmp_path: Path, failed: Failed) -> 
     (tmp_path / "line.xyz").write_text("".join(f"{i} 0 0\n" for i in range(50)))
     assert "on a line" in failed(4, "curvature", tmp_path / "line.xyz", out)
     assert not out.exists()
+
+
+def test_the_help_tells_how_many_neighbours_a_normal_has_here(capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(["curvature", "--help"]) == 0
+    assert f"at most {MOST_NORMAL_NEIGHBORS};" in " ".join(capsys.readouterr().out.split())
 
 
 def test_every_format_is_in_the_help(capsys: pytest.CaptureFixture[str]) -> None:
