@@ -3,7 +3,7 @@
 
     python examples/reconstruct_a_scan.py scan.ply mesh.obj
 
-The same as:  hdpea reconstruct scan.ply mesh.obj --report mesh.json --picture mesh.png
+Makes the mesh that this does:  hdpea reconstruct scan.ply mesh.obj --report mesh.json --picture mesh.png
 """
 
 from __future__ import annotations
@@ -14,7 +14,6 @@ from pathlib import Path
 from hdpea import reconstruct
 from hdpea.pictures.picture import draw_mesh
 from hdpea.reading import read_points
-from hdpea.writing.meshes import write_mesh
 
 
 def main(scan: Path, out: Path) -> None:
@@ -23,10 +22,11 @@ def main(scan: Path, out: Path) -> None:
     for note in cloud.notes:
         print(note)
 
-    # One vertex for every ten points; every other option has a default taken from the cloud.
-    mesh = reconstruct(cloud, vertices=len(cloud.points) // 10)
+    # Every option has a default, which is chosen by what the cloud shows; `vertices=` asks for a size.
+    mesh = reconstruct(cloud)
 
-    write_mesh(out, mesh.vertices, mesh.faces)
+    # With the colours of the scan, and where in the world it lies, if it has them.
+    mesh.write(out)
     mesh.report.write(out.with_suffix(".json"))
     draw_mesh(out.with_suffix(".png"), mesh.vertices, mesh.faces)
     print(f"{len(cloud.points)} points -> {len(mesh.vertices)} vertices, {len(mesh.faces)} faces")

@@ -12,6 +12,7 @@ import pytest
 import shown_commands
 
 from hdpea.errors import HdpeaError
+from hdpea.mesh.noise import DEVIATIONS
 
 ROOT = Path(__file__).parents[2]
 COMMAND_PAGES = sorted((ROOT / "docs/commands").glob("*.md"))
@@ -63,6 +64,25 @@ def test_the_journeys_tell_the_times_of_the_tables() -> None:
     ((clock, processor),) = re.findall(r"([\d,]+) s by the clock and ([\d,]+) s of a processor", pages["scaling"])
     assert f"took {processor} s of a processor, {clock} s by the clock" in pages["journeys"]
     assert f"{4 * int(clock) / 60:.0f} minutes on two cores" in pages["journeys"]
+
+
+@pytest.mark.parametrize("page", ["docs/journeys.md", "docs/commands/reconstruct.md"])
+def test_the_least_error_that_noise_allows_is_that_of_the_code(page: str) -> None:
+    told = re.findall(r"of\s+less\s+than\s+(\S+)\s+times\s+the\s+noise", (ROOT / page).read_text())
+    assert told == [str(DEVIATIONS)]
+
+
+def anchors(page: Path) -> set[str]:
+    """Return what GitHub calls the headings of a page."""
+    headings = re.findall(r"^#+ (.*)", page.read_text(), re.MULTILINE)
+    return {re.sub(r"[^\w\- ]", "", heading.strip().lower()).replace(" ", "-") for heading in headings}
+
+
+@pytest.mark.parametrize("page", ["README.md", *shown_commands.PAGES[1:]])
+def test_links_lead_to_headings(page: str) -> None:
+    file = ROOT / page
+    links = re.findall(r"\]\(([^)#:]*\.md)?#([^)]+)\)", file.read_text())
+    assert [link for link in links if link[1] not in anchors(file.parent / link[0] if link[0] else file)] == []
 
 
 def kinds_of_error(kind: type[HdpeaError] = HdpeaError) -> set[type[HdpeaError]]:

@@ -9,14 +9,15 @@ from pathlib import Path
 
 import pytest
 
+from hdpea.cli import run as command
 from hdpea.reading import read_points
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 
 
 def run(script: str, *arguments: object) -> str:
-    command = [sys.executable, str(EXAMPLES / script), *map(str, arguments)]
-    return subprocess.run(command, check=True, capture_output=True, text=True).stdout
+    line = [sys.executable, str(EXAMPLES / script), *map(str, arguments)]
+    return subprocess.run(line, check=True, capture_output=True, text=True).stdout
 
 
 @pytest.mark.slow
@@ -24,8 +25,10 @@ def test_a_shape_becomes_a_scan_becomes_a_mesh(tmp_path: Path) -> None:
     scan, mesh = tmp_path / "cone.ply", tmp_path / "cone.obj"
     run("shapes.py", "cone", scan, "--points", 3_000)
     assert len(read_points(scan).points) == 3_000
-    assert "3000 points -> 300 vertices" in run("reconstruct_a_scan.py", scan, mesh)
+    assert "3000 points -> 375 vertices" in run("reconstruct_a_scan.py", scan, mesh)
     assert {each.suffix for each in tmp_path.iterdir()} == {".ply", ".obj", ".json", ".png"}
+    assert command(["reconstruct", str(scan), str(tmp_path / "same.obj"), "--quiet"]) == 0
+    assert (tmp_path / "same.obj").read_bytes() == mesh.read_bytes()
 
 
 @pytest.mark.slow

@@ -46,5 +46,5 @@ def test_every_key_of_a_report_is_explained() -> None:
 
 
 def test_every_key_of_a_line_of_json_is_explained() -> None:
-    section = PAGE.split("## A line of `--json`")[1]
+    section = PAGE.split("## A line of JSON")[1]
     assert all(f"`{key}`" in section for key in json.loads(Ended(("a.ply",), "a.mesh.ply").as_line()))
