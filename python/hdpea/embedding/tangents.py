@@ -8,9 +8,10 @@ from numpy.typing import NDArray
 
 from hdpea import _core
 from hdpea.errors import core_errors_translated
+from hdpea.options.meshing import POINTS_PER_VERTEX
 
 TANGENT_NEIGHBORS = 12
-"""Neighbours that a tangent plane is fitted to (HD-PEA paper, section 3.2), for up to 8 points per vertex."""
+"""Neighbours that a tangent plane is fitted to (HD-PEA paper, section 3.2), for ``POINTS_PER_VERTEX`` and fewer."""
 
 PER_VERTEX = 1.5
 """Neighbours per point per vertex, where there are more: noise of a redundant cloud is averaged out."""
@@ -20,7 +21,7 @@ def tangent_bases(
     coordinates: NDArray[np.float64],
     normals: NDArray[np.float64],
     neighbors: NDArray[np.int64],
-    points_per_vertex: float = 8.0,
+    points_per_vertex: float = POINTS_PER_VERTEX,
 ) -> NDArray[np.float64]:
     """Return an orthonormal basis (n, 2, d) of the tangent plane at each embedded point.
 
@@ -37,7 +38,8 @@ def tangent_bases(
         (n, k) int64: neighbours *in R^3*, of the same sheet, padded with -1. Neighbours in R^d would jump between folds
         (HD-PEA paper, section 4.3).
     points_per_vertex
-        Points for each vertex that the mesh will have: with more, planes are fitted to more neighbours.
+        Points for each vertex that would show what they do (``hdpea.options.Options.resolution_of``): with more, planes
+        are fitted to more neighbours.
     """
     count = max(TANGENT_NEIGHBORS, round(PER_VERTEX * points_per_vertex))
     nearest = np.ascontiguousarray(neighbors[:, :count])

@@ -14,6 +14,7 @@ from hdpea.frontend.roughness import Roughness, roughness_of
 from hdpea.geometry.unit_frame import UnitFrame
 from hdpea.options import NormalOptions
 from hdpea.options.choice import Choice
+from hdpea.options.meshing import POINTS_PER_VERTEX
 from hdpea.runtime.progress import ProgressCallback, of_phase, tell
 from hdpea.surface.dense_parts import dense_parts
 from hdpea.surface.given_signs import GivenSigns, given_signs
@@ -78,7 +79,7 @@ def oriented_surface(
     points_in_world: NDArray[np.float64],
     normals: NDArray[np.float64] | None = None,
     options: NormalOptions | None = None,
-    points_per_vertex: float = 8.0,
+    points_per_vertex: float = POINTS_PER_VERTEX,
     progress: ProgressCallback | None = None,
     sensors_in_world: NDArray[np.float64] | None = None,
 ) -> OrientedSurface:
@@ -95,8 +96,8 @@ def oriented_surface(
     normals
         (n, 3) float64 of length 1, or 0 where unusable.
     points_per_vertex
-        Points for each particle that is to be spread: with more, normals are fitted to more neighbours, so
-        that noise averages out in a redundant cloud.
+        Points for each vertex that would show what they do (``hdpea.options.Options.resolution_of``): with more,
+        normals are fitted to more neighbours, so that noise averages out in a redundant cloud.
     sensors_in_world
         (n, 3) float64, from where each point was seen: decides the sides unless the normals' own signs do.
 

@@ -10,6 +10,7 @@ from hdpea.frontend.registration import Met, moved_together
 from hdpea.frontend.volume import fills_a_volume
 from hdpea.options import DenoisingOptions, NormalOptions
 from hdpea.options.choice import Choice
+from hdpea.options.meshing import POINTS_PER_VERTEX
 from hdpea.reading.cloud import PointCloud
 from hdpea.runtime.clock import StageClock
 from hdpea.runtime.progress import ProgressCallback
@@ -57,7 +58,7 @@ def prepare_surface(
     cloud: PointCloud,
     normals: NormalOptions | None = None,
     denoising: DenoisingOptions | None = None,
-    points_per_vertex: float = 8.0,
+    points_per_vertex: float = POINTS_PER_VERTEX,
     progress: ProgressCallback | None = None,
     clock: StageClock | None = None,
 ) -> Preparation:
@@ -69,7 +70,7 @@ def prepare_surface(
         None leaves the points where they are. Where it is to be found out, two scans that do not meet are moved
         together, of points without normals.
     points_per_vertex
-        Points for each particle that is to be spread: with more, normals are fitted to more neighbours.
+        As of ``hdpea.surface.normals.oriented_surface``.
     progress
         Hears of the phases normals and denoising.
     clock
