@@ -16,6 +16,7 @@ from hdpea.geometry.mesh_curvature import largest_curvatures, triangle_stretches
 from hdpea.geometry.thinning import thinned
 from hdpea.geometry.triangles import area_vectors
 from hdpea.pages.shapes import Coloring, MeshShape, OwnColors, PointShape
+from hdpea.reading.attributes import split_colors
 
 Rows = NDArray[np.float64]
 Attributes = Mapping[str, NDArray[Any]]
@@ -31,8 +32,6 @@ SATURATED = 98
 
 EXPECTED = 10.0
 """Points that a face has by its area, from which on it is no chance if it has none: once in 22,000 such faces."""
-
-COLORS = ("red", "green", "blue")
 
 DISTANCE, COLOR = "distance", "colour"
 """Names of colourings: distance between mesh and points, and the colours that the data have."""
@@ -140,21 +139,14 @@ def _distances_at_vertices(
 
 def _of_attributes(attributes: Attributes, count: int) -> Iterator[Coloring | OwnColors]:
     columns = {name: np.asarray(values) for name, values in attributes.items() if len(values) == count}
-    if all(name in columns for name in COLORS):
-        yield OwnColors(COLOR, _bytes_of(np.column_stack([columns.pop(name) for name in COLORS])))
-    for name, values in columns.items():
+    colors, others = split_colors(columns)
+    if colors is not None:
+        yield OwnColors(COLOR, np.rint(255 * np.nan_to_num(colors)).astype(np.uint8))
+    for name, values in others.items():
         if values.ndim == 1 and values.dtype.kind in "iufb":
             numbers = values.astype(np.float64)
             low, high = _percentile(numbers, 100 - SATURATED), _percentile(numbers, SATURATED)
             yield Coloring(name, numbers, low, high, f"{name}, as in the file.")
-
-
-def _bytes_of(colors: NDArray[Any]) -> NDArray[np.uint8]:
-    """Return colours (n, 3) as bytes, by their range: shares of 1, bytes, or 16 bits."""
-    largest = float(colors.max(initial=0))
-    shares = colors.dtype.kind == "f" and largest <= 1
-    scale = 255 / (1 if shares else 255 if largest <= 255 else 65_535)
-    return np.rint(scale * colors.astype(np.float64)).clip(0, 255).astype(np.uint8)
 
 
 def _percentile(values: Rows, percent: float) -> float:

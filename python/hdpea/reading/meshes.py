@@ -11,10 +11,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hdpea.errors import UnreadableInput
+from hdpea.reading.attributes import RGB
 from hdpea.reading.cloud import MESH_NOTE, PointCloud, from_columns
 from hdpea.reading.tables import columns_by_name, look_like_normals, name_columns, parse_table, without_words_for_nan
 
-_COLORS = ["red", "green", "blue"]
 _AXES, _NORMALS = ["x", "y", "z"], ["nx", "ny", "nz"]
 _CORNER = re.compile(r"(?<=\s)(\d+)/\d*/(\d+)")
 _OTHER_NORMAL = re.compile(r"(?<=\s)(\d+)/\d*/(?!\1(?!\d))\d")
@@ -39,7 +39,7 @@ def parse_obj(data: bytes) -> PointCloud:
         text = _CONTINUED.sub(lambda found: re.sub(r"\\\s*\n", " ", found[0]), text)
     vertices = _vertices(_after_keyword(text, "v"))
     normals = parse_table(_after_keyword(text, "vn"))
-    others = {6: _COLORS, 7: [*_COLORS, "alpha"], 4: ["w"]}
+    others = {6: [*RGB], 7: [*RGB, "alpha"], 4: ["w"]}
     names = [*_AXES, *others.get(vertices.shape[1], [])][: vertices.shape[1]]
     columns = columns_by_name(names, vertices[:, : len(names)])
     of_vertices = _normals_of_vertices(text, normals, len(vertices))
@@ -107,7 +107,7 @@ def _off_columns(kind: str, table: NDArray[np.float64]) -> dict[str, NDArray[Any
     """Name the columns (n, c) after those letters: N normals, C colours, ST coordinates of a texture."""
     width = table.shape[1] - 2 * ("ST" in kind)
     table = table[:, :width]
-    colors = [*_COLORS, "alpha"][: width - 3 - 3 * ("N" in kind)]
+    colors = [*RGB, "alpha"][: width - 3 - 3 * ("N" in kind)]
     if width not in {6, 7, 9, 10} or ("N" not in kind and look_like_normals(table[:, 3:6])):
         return name_columns(table, normals_expected="N" in kind)
     if "N" not in kind:

@@ -11,8 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from hdpea.errors import UsageError
-
-RGB = ("red", "green", "blue")
+from hdpea.reading.attributes import RGB
 
 _INT32 = np.iinfo(np.int32)
 

@@ -12,7 +12,8 @@ from numpy.typing import NDArray
 
 from hdpea.errors import UsageError
 from hdpea.geometry.triangles import vertex_normals
-from hdpea.writing.attributes import RGB, colors_of
+from hdpea.reading.attributes import RGB
+from hdpea.writing.attributes import colors_of
 
 if TYPE_CHECKING:
     import pyvista

@@ -201,3 +201,15 @@ def test_what_was_filled_is_told_from_what_was_measured() -> None:
     assert unknown[centres[:, 2] < -0.7].all()
     assert not unknown[centres[:, 2] > -0.4].any()
     np.testing.assert_array_equal(holed.vertices[holed.faces], vertices[faces])
+
+
+@pytest.mark.parametrize("depth", [1.0, 255, 65535])
+@pytest.mark.parametrize("names", [("r", "g", "b"), ("diffuse_red", "diffuse_green", "diffuse_blue"), ("colors",)])
+def test_colours_are_colours_by_whatever_name(names: tuple[str, ...], depth: float) -> None:
+    points = clouds.sphere(3)[0]
+    colors = np.array([[0, 1, 0], [1, 1, 0], [0, 0, 1]]) * depth
+    colors = colors if isinstance(depth, float) else colors.astype(np.uint16)
+    attributes = {"colors": colors} if len(names) == 1 else dict(zip(names, colors.T, strict=True))
+    (shown,) = point_shape("points", points, attributes=attributes).colorings
+    assert isinstance(shown, OwnColors)
+    assert shown.values.tolist() == (colors / depth * 255).tolist()
