@@ -26,8 +26,8 @@ PANEL = (800, 800)
 """Width and height of a panel in pixels."""
 
 
-def draw_sample(path: Path, sample: Sample, options: GroundTruthOptions | None = None) -> None:
-    """Draw the points of a sample coloured by normal, by psi, and by how anisotropic the metric of `options` is.
+def draw_sample(path: Path, sample: Sample) -> None:
+    """Draw the points of a sample coloured by normal, by psi, and by how anisotropic the default metric is.
 
     Parameters
     ----------
@@ -43,7 +43,7 @@ def draw_sample(path: Path, sample: Sample, options: GroundTruthOptions | None =
     view_from_unit = choose_view_of_points(sample.points.astype(np.float64), sample.normals.astype(np.float64), sight)
     points = sample.points @ view_from_unit.T
     facing = (sample.normals @ view_from_unit.T)[:, 2] > 0
-    options = options or GroundTruthOptions()
+    options = GroundTruthOptions()
     stretch = stretches(sample.curvatures, options, spacing_of(sample, options))
     ratio = stretch[:, 0] / stretch[:, 1]
     panels = [normal_colors(sample.normals), psi_colors(sample.psi), ratio_colors(ratio)]

@@ -15,21 +15,19 @@ CREASE = 40.0
 Corners = NDArray[np.int64]
 
 
-def split_at_creases(
-    vertices: NDArray[np.float64], faces: Corners, most_degrees: float = CREASE
-) -> tuple[Corners, Corners]:
+def split_at_creases(vertices: NDArray[np.float64], faces: Corners) -> tuple[Corners, Corners]:
     """Return which vertex (m,) each of a mesh split along its creases was, and its faces (f, 3).
 
-    Two faces share a vertex still if a way around it leads from one to the other across edges of at most so many
-    degrees. Vertices without creases occur once, in their order; those of no face are left out.
+    Two faces share a vertex still if a way around it leads from one to the other across edges of at most
+    ``CREASE`` degrees. Vertices without creases occur once, in their order; those of no face are left out.
     """
-    first, second = _corners_joined(vertices, faces, most_degrees)
+    first, second = _corners_joined(vertices, faces)
     keys = np.stack([faces.ravel(), first_linked(faces.size, first, second)], axis=1)
     fans, corners = np.unique(keys, axis=0, return_inverse=True)
     return fans[:, 0], corners.reshape(faces.shape)
 
 
-def _corners_joined(vertices: NDArray[np.float64], faces: Corners, most_degrees: float) -> tuple[Corners, Corners]:
+def _corners_joined(vertices: NDArray[np.float64], faces: Corners) -> tuple[Corners, Corners]:
     """Return pairs (p,) of corners, numbered along ``faces.ravel()``, that lie on one vertex across a smooth edge."""
     lengths = abs(vertices).max(initial=0) or 1.0
     normals = area_vectors(vertices / lengths, faces)
@@ -41,7 +39,7 @@ def _corners_joined(vertices: NDArray[np.float64], faces: Corners, most_degrees:
     order = np.lexsort((high, low))
     same = (low[order][1:] == low[order][:-1]) & (high[order][1:] == high[order][:-1])
     one, other = order[:-1][same], order[1:][same]
-    smooth = (normals[one // 3] * normals[other // 3]).sum(axis=1) >= np.cos(np.radians(most_degrees))
+    smooth = (normals[one // 3] * normals[other // 3]).sum(axis=1) >= np.cos(np.radians(CREASE))
     one, other = one[smooth], other[smooth]
     # The two halves of an edge run in opposite directions, in an oriented mesh.
     return np.concatenate([starts[one], ends[one]]), np.concatenate([ends[other], starts[other]])
