@@ -112,44 +112,29 @@ def oriented_surface(
     """
     options = options or NormalOptions()
     given = np.zeros_like(points_in_world) if normals is None else normals
-    usable: NDArray[np.bool_] = np.asarray(given.any(axis=1))
-    if options.normals == "file" and not usable.all():
-        raise UnreadableInput(
-            f"{int((~usable).sum())} points have no usable normal.", "Use `normals='auto'` to estimate those."
-        )
+    usable = _usable(given, options)
     require_signs(given, sensors_in_world, options)
-    if options.normals == "estimate":
-        usable[:] = False
     frame = UnitFrame.around(points_in_world)
     points = frame.to_unit(points_in_world)
     require_surface(points)
     tell(progress, "normals", 0)
     with core_errors_translated():
-        neighbors = _core.nearest_neighbors(points, NEIGHBORS)
-        nearest = np.ascontiguousarray(neighbors[:, :ORIENTATION_NEIGHBORS])
-        roughness = roughness_of(points)
         refused = options.normals == "auto" and not are_normals(points, given)
-        if refused:
-            usable[:] = False
-        directions, choices = _directions(points, given, usable, neighbors, roughness, options, points_per_vertex)
-        # Where all normals are to be estimated, the signs of given ones count only if they are asked for.
-        trusted = given if options.orient == "file" else np.where(usable[:, None], given, 0)
-        signs = given_signs(points, trusted, nearest)
-        origin, sensors = frame.to_unit(np.zeros(3)), _sensors(frame, sensors_in_world)
-        evidence = SignEvidence(trusted, ~usable, nearest, roughness, origin, sensors, signs)
+        cloud = _Cloud.of(points, given, usable & ~np.bool_(refused))
+        directions, choices = _directions(cloud, options, points_per_vertex)
+        evidence = _evidence(cloud, frame, sensors_in_world, options)
         seen_from = _seen_from(frame, sensors_in_world, options) if options.orient == "viewpoint" else None
-        parts = dense_parts(points, directions, neighbors)
+        parts = dense_parts(points, directions, cloud.neighbors)
         hears = of_phase(progress, "normals")
         orientation = orient(points, directions, evidence, options.orient, seen_from, hears, parts)
-        if options.orient == "auto":
-            choices += (Choice("orient", orientation.method, "", orientation.why),)
+    if options.orient == "auto":
+        choices += (Choice("orient", orientation.method, "", orientation.why),)
     tell(progress, "normals", 1)
-    surface = Surface.of(frame, points, orientation.normals, neighbors)
     return OrientedSurface(
-        surface,
-        roughness,
-        estimated=int((~usable).sum()),
-        signs=signs,
+        Surface.of(frame, points, orientation.normals, cloud.neighbors),
+        cloud.roughness,
+        estimated=int((~cloud.usable).sum()),
+        signs=evidence.signs,
         method=orientation.method,
         refused=refused,
         choices=choices,
@@ -157,6 +142,44 @@ def oriented_surface(
         doubled=orientation.doubled,
         parts=parts,
     )
+
+
+def _usable(given: Vectors, options: NormalOptions) -> NDArray[np.bool_]:
+    """Return which of the given normals (n, 3) may be taken, as far as the options say; none, if none are to be."""
+    usable: NDArray[np.bool_] = np.asarray(given.any(axis=1))
+    if options.normals == "file" and not usable.all():
+        raise UnreadableInput(
+            f"{int((~usable).sum())} points have no usable normal.", "Use `normals='auto'` to estimate those."
+        )
+    return usable & (options.normals != "estimate")
+
+
+@dataclass(frozen=True)
+class _Cloud:
+    """Points (n, 3) in the unit frame, what was given of their normals and is usable, and what lies around them."""
+
+    points: Vectors
+    given: Vectors
+    usable: NDArray[np.bool_]
+    neighbors: NDArray[np.int64]
+    roughness: Roughness
+
+    @classmethod
+    def of(cls, points: Vectors, given: Vectors, usable: NDArray[np.bool_]) -> _Cloud:
+        """Find the neighbours of points and how rough these are."""
+        return cls(points, given, usable, _core.nearest_neighbors(points, NEIGHBORS), roughness_of(points))
+
+
+def _evidence(
+    cloud: _Cloud, frame: UnitFrame, sensors_in_world: Vectors | None, options: NormalOptions
+) -> SignEvidence:
+    """Return what is known of the sides of a cloud before they are chosen."""
+    nearest = np.ascontiguousarray(cloud.neighbors[:, :ORIENTATION_NEIGHBORS])
+    # Where all normals are to be estimated, the signs of given ones count only if they are asked for.
+    trusted = cloud.given if options.orient == "file" else np.where(cloud.usable[:, None], cloud.given, 0)
+    signs = given_signs(cloud.points, trusted, nearest)
+    origin, sensors = frame.to_unit(np.zeros(3)), _sensors(frame, sensors_in_world)
+    return SignEvidence(trusted, ~cloud.usable, nearest, cloud.roughness, origin, sensors, signs)
 
 
 def _sensors(frame: UnitFrame, sensors_in_world: Vectors | None) -> Vectors | None:
@@ -182,27 +205,20 @@ def _seen_from(frame: UnitFrame, sensors_in_world: Vectors | None, options: Norm
     return in_unit
 
 
-def _directions(
-    points: Vectors,
-    given: Vectors,
-    usable: NDArray[np.bool_],
-    neighbors: NDArray[np.int64],
-    roughness: Roughness,
-    options: NormalOptions,
-    points_per_vertex: float,
-) -> tuple[Vectors, tuple[Choice, ...]]:
-    """Return normals (n, 3) of any sign, the `given` ones where they are `usable`, and what was chosen for them."""
+def _directions(cloud: _Cloud, options: NormalOptions, points_per_vertex: float) -> tuple[Vectors, tuple[Choice, ...]]:
+    """Return normals (n, 3) of any sign, the given ones where they are usable, and what was chosen for them."""
+    points, usable, neighbors = cloud.points, cloud.usable, cloud.neighbors
     if usable.all():
-        return given, ()
+        return cloud.given, ()
     count = options.normal_neighbors
     choices: tuple[Choice, ...] = ()
     if count is None:
-        enough = min(round(NEIGHBORS_PER_NOISE * roughness.noise), MOST_NEIGHBORS)
+        enough = min(round(NEIGHBORS_PER_NOISE * cloud.roughness.noise), MOST_NEIGHBORS)
         count = max(ORIENTATION_NEIGHBORS, min(round(2 * points_per_vertex), NEIGHBORS), enough)
         why = f"twice the points per particle, from {ORIENTATION_NEIGHBORS} to {NEIGHBORS}"
         if count == enough:
-            why = str(roughness)
+            why = str(cloud.roughness)
         choices = (Choice("normal_neighbors", count, "points", why),)
     fitted = neighbors if count <= NEIGHBORS else _core.nearest_neighbors(points, min(count, len(points) - 1))
     estimated = _core.estimate_normals(points, np.ascontiguousarray(fitted[:, :count]))
-    return np.where(usable[:, None], given, estimated), choices
+    return np.where(usable[:, None], cloud.given, estimated), choices
