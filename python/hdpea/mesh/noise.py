@@ -3,9 +3,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 from hdpea import _core
 from hdpea.geometry.thinning import rows_along
@@ -30,6 +32,9 @@ FEWER = (16, 32, 64)
 
 What planes of more points miss is less than chance tells: a sphere of 20,000 with noise of 1.4 spacings and a share of
 outliers was given one for every 128, and its error grew by 7 %."""
+
+PER_VERTEX = (POINTS_PER_VERTEX, *FEWER)
+"""All points per vertex for which it counts what planes miss."""
 
 PLANE = 2
 """Points of a plane for each point per vertex: on a sphere a plane through 1.25 misses as much as triangles do."""
@@ -56,15 +61,27 @@ def within_noise(options: Options, prepared: Preparation, points_shown: int) -> 
         That number and why.
     """
     noise = prepared.oriented.roughness.noise
-    asked = not options.meshing.any_size or options.meshing.error is not None or options.particles.particles is not None
-    if asked or noise <= ROUGH:
+    return within_measured_noise(options, noise, lambda fewer: missed_by_planes(prepared, fewer), points_shown)
+
+
+def within_measured_noise(
+    options: Options, noise: float, missed: Callable[[int], float | None], points_shown: int
+) -> tuple[Options, tuple[Choice, ...]]:
+    """Decide as ``within_noise`` does, by what was measured elsewhere, such as in the tiles of a cloud.
+
+    Parameters
+    ----------
+    noise
+        Of the points, in spacings.
+    missed
+        For a number of points per vertex, what ``missed_by_planes`` measures.
+    """
+    if not any_number(options) or noise <= ROUGH or (least := missed(POINTS_PER_VERTEX)) is None:
         return options, ()
-    missed = _missed_by_planes(prepared, POINTS_PER_VERTEX)
     per_vertex = POINTS_PER_VERTEX
     for fewer in FEWER:
-        if PLANE * fewer >= len(prepared.surface.points_in_unit):
-            break
-        if _missed_by_planes(prepared, fewer) > missed * (1 + MISSED / fewer):
+        variance = missed(fewer)
+        if variance is None or variance > least * (1 + MISSED / fewer):
             break
         per_vertex = fewer
     if per_vertex == POINTS_PER_VERTEX:
@@ -73,6 +90,11 @@ def within_noise(options: Options, prepared: Preparation, points_shown: int) -> 
     why = f"one for every {per_vertex} points: finer triangles would show their noise, {noise:.2g} spacings"
     chosen = replace(options, meshing=replace(options.meshing, vertices=vertices))
     return chosen, (Choice("vertices", vertices, "", why),)
+
+
+def any_number(options: Options) -> bool:
+    """Return whether nobody asks for a number of vertices, nor for what decides it."""
+    return options.meshing.any_size and options.meshing.error is None and options.particles.particles is None
 
 
 def error_within_noise(options: Options, prepared: Preparation) -> tuple[str, ...]:
@@ -88,13 +110,21 @@ def error_within_noise(options: Options, prepared: Preparation) -> tuple[str, ..
     return (f"{told}: the mesh follows the noise, with many triangles.",)
 
 
-def _missed_by_planes(prepared: Preparation, per_vertex: int) -> float:
+def missed_by_planes(prepared: Preparation, per_vertex: int, among: NDArray[np.int64] | None = None) -> float | None:
     """Return the variance of points about planes as wide as triangles with so many points per vertex.
 
-    It is that of their noise, and of what the surface bends.
+    It is that of their noise, and of what the surface bends, in the unit frame; None if there are too few points.
+
+    Parameters
+    ----------
+    among
+        Rows (m,) of the points at which it is measured; default: all.
     """
     surface, rough = prepared.surface, prepared.oriented.surface.points_in_unit
-    rows = rows_along(len(rough), SAMPLES)
+    among = np.arange(len(rough)) if among is None else among
+    if PLANE * per_vertex >= len(rough) or len(among) == 0:
+        return None
+    rows = among[rows_along(len(among), SAMPLES)]
     middles, normals = np.ascontiguousarray(surface.points_in_unit[rows]), np.ascontiguousarray(surface.normals[rows])
     # Neighbours are those on the denoised surface: noise of a spacing makes balls of the nearest, whose planes lie
     # any way.

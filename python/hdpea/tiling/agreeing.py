@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What all tiles must agree on, decided from what each has found: which side is out, and how many vertices to make."""
+"""Which side is out: what all tiles must agree on, beside the numbers, decided from what each has found."""
 
 from __future__ import annotations
 
@@ -7,9 +7,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hdpea import _core
-from hdpea.errors import CannotReconstruct
 from hdpea.geometry.linked import first_linked
-from hdpea.options.points_shown import PointsShown
+from hdpea.tiling.numbers import numbers_of
 from hdpea.tiling.work import Work
 
 Piece = tuple[int, int]
@@ -28,22 +27,7 @@ sign, between two normals, by which two points are taken to be of one sheet."""
 
 def agree(work: Work) -> None:
     """Turn the pieces of the tiles to one side, and choose the spacing and the numbers that all tiles go by."""
-    tiles = range(work.plan.tiles)
-    facts = [work.folder.facts("prepared", tile) for tile in tiles]
-    points, shown = sum(each["points"] for each in facts), round(sum(each["shown"] for each in facts))
-    if points == 0:
-        raise CannotReconstruct("No point lies on a surface.")
-    exact = 2 * sum(each["points"] for each in facts if each["exact"]) > points
-    resolution = work.options.resolution_of(shown)
-    numbers = {
-        "spacing": float(np.sqrt(sum(each["area"] for each in facts) / resolution)),
-        "resolution": resolution,
-        "vertices": work.options.vertices_of(shown),
-        "particles": work.options.particles_of(points, PointsShown(shown, exact=exact)),
-        "per_vertex": points / resolution,
-        "points": points,
-        "computed_sides": any(each["computed_sides"] for each in facts),
-    }
+    numbers = numbers_of(work)
     sides = _sides(work) if numbers["computed_sides"] else _as_they_are(work)
     work.folder.save("agreed", None, sides, numbers)
 

@@ -66,7 +66,8 @@ def measured(work: Work) -> tuple[Distances, Agreement, AchievedError, HeightDif
     whole = work.folder.load("mesh")
     mesh = Mesh(whole["vertices"], whole["faces"], whole["vertices"])
     along_z = HeightDifferences.of(heights) if is_height_field(mesh) else None
-    spacing = float(np.average([work.folder.facts("prepared", tile)["spacing"] for tile in tiles], weights=points))
+    spacings = [work.folder.facts("prepared", tile)["spacing_given"] for tile in tiles]
+    spacing = float(np.average(spacings, weights=points))
     agreement = Agreement(
         float(np.average([some["points_without_mesh"] for some in facts], weights=points)),
         float(np.average([some["area_without_points"] for some in facts], weights=area)),

@@ -6,13 +6,16 @@ from __future__ import annotations
 from dataclasses import asdict, replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 from hdpea.embedding import embed_surface
 from hdpea.frontend.cleaning import surface_cloud
+from hdpea.mesh.noise import PER_VERTEX, any_number, missed_by_planes
+from hdpea.options.denoising import ROUGH
 from hdpea.options.embedding import BENDING_LENGTH, CURVATURE_RADIUS
 from hdpea.options.lengths import Length
 from hdpea.reading.cleaning import cleaned
-from hdpea.surface.preparation import prepare_surface
+from hdpea.surface.preparation import Preparation, prepare_surface
 from hdpea.surface.surface import area_shown, areas_shown
 from hdpea.tiling.folder import Arrays
 from hdpea.tiling.intake import tile_cloud
@@ -31,13 +34,18 @@ def prepare(work: Work, tile: int) -> None:
     points, points_given = (plan.frame.to_unit(each.frame.to_world(each.points_in_unit)) for each in (surface, given))
     own = plan.inside(tile, points_given)
     area = areas_shown(points, surface.neighbors)
+    scale = surface.frame.diagonal / plan.frame.diagonal
     facts = {
-        "spacing": surface.spacing * surface.frame.diagonal / plan.frame.diagonal,
+        "spacing": surface.spacing * scale,
+        "spacing_given": given.spacing * scale,
         "points": int(own.sum()),
         "shown": found.points_shown * float(own.mean()),
         "area": float(area[own].sum()),
         "computed_sides": prepared.oriented.computed_sides,
         "exact": prepared.exact,
+        "denoised": prepared.denoised,
+        "noise": prepared.oriented.roughness.noise,
+        "missed_by_planes": _missed_by_planes(prepared, own, scale) if any_number(options) else [],
         "estimated": round(prepared.oriented.estimated * float(own.mean())),
         "dropped": found.dropped.counts(plan.inside(tile, plan.frame.to_unit(found.dropped.points))),
         "known": len(points),
@@ -54,6 +62,17 @@ def prepare(work: Work, tile: int) -> None:
         "own": own,
     }
     work.folder.save("prepared", tile, arrays, facts)
+
+
+def _missed_by_planes(prepared: Preparation, own: NDArray[np.bool_], scale: float) -> list[float | None]:
+    """Return what planes miss of a tile's `own` points (n,), for each of ``PER_VERTEX``, in the frame of the whole.
+
+    Nothing of a tile without noise, which would take its time for nothing.
+    """
+    if prepared.oriented.roughness.noise <= ROUGH:
+        return []
+    missed = [missed_by_planes(prepared, each, np.flatnonzero(own)) for each in PER_VERTEX]
+    return [None if each is None else each * scale**2 for each in missed]
 
 
 def embed(work: Work, tile: int) -> None:

@@ -61,13 +61,13 @@ class Took:
 
 def repair(work: Work) -> None:
     """Mend faces that cut others, turn pieces that are inside out, and check the whole."""
-    mesh = finished_mesh(work)
+    mesh, agreed = finished_mesh(work), work.folder.facts("agreed")
     notes: tuple[str, ...] = ()
-    if work.folder.facts("agreed")["computed_sides"]:
+    if agreed["computed_sides"]:
         faced = facing_out(mesh)
         mesh, notes = faced.mesh, faced.notes
     # Its vertices are fitted to the points, and far fewer than these, which need not fit into the memory.
-    mesh = repair_mesh(mesh, mesh.vertices_in_unit)
+    mesh = repair_mesh(mesh, mesh.vertices_in_unit, exact=agreed["exact"])
     found = mesh_facts(mesh)
     arrays = {"vertices": mesh.vertices_in_unit, "faces": mesh.faces, "patches": mesh.patches}
     facts = {"self_intersections": found.self_intersections, "statistics": mesh.statistics, "notes": list(notes)}
