@@ -23,12 +23,16 @@ Result = TypeVar("Result")
 
 @dataclass(frozen=True)
 class Outcome(Generic[Result]):
-    """What became of task number `index`: its result, or else why it `failed`, in a sentence."""
+    """What became of task number `index`: its result, or else why it `failed`, in a sentence.
+
+    ``died`` tells whether the process ended without an answer, so that another one may succeed.
+    """
 
     index: int
     seconds: float
     result: Result | None = None
     failed: str = ""
+    died: bool = False
 
 
 def run_isolated(
@@ -133,7 +137,8 @@ class _Worker(Generic[Task, Result]):
             result, failed = self.connection.recv()
         except (EOFError, ConnectionResetError):
             self.end()
-            result, failed = None, f"Its process ended with {_ending(self._process.exitcode)}."
+            failed = f"Its process ended with {_ending(self._process.exitcode)}."
+            return Outcome(self.index, self.seconds(), failed=failed, died=True)
         return Outcome(self.index, self.seconds(), result, failed)
 
     def end(self) -> None:

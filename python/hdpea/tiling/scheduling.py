@@ -14,9 +14,6 @@ from hdpea.tiling.tasks import Task, Took, perform
 ATTEMPTS = 3
 """How often a task is tried whose worker dies."""
 
-DIED = "Its process ended with"
-"""How ``run_isolated`` begins to tell of a process that died."""
-
 
 def run(
     tasks: Sequence[Task], after: Sequence[Collection[int]], jobs: int = 1, scheduler: str | None = None
@@ -52,7 +49,7 @@ def _here(tasks: Sequence[Task]) -> Iterator[tuple[int, Took]]:
 def _in_processes(tasks: Sequence[Task], after: Sequence[Collection[int]], jobs: int) -> Iterator[tuple[int, Took]]:
     done = set[int]()
     for attempt in range(ATTEMPTS):
-        died = ""
+        again = False
         # Tasks that were done before find their results, and return at once.
         with closing(run_isolated(_attempt, tasks, jobs, after=after)) as outcomes:
             for outcome in outcomes:
@@ -62,11 +59,11 @@ def _in_processes(tasks: Sequence[Task], after: Sequence[Collection[int]], jobs:
                     if outcome.index not in done:
                         done.add(outcome.index)
                         yield outcome.index, outcome.result
-                elif outcome.failed.startswith(DIED) and attempt + 1 < ATTEMPTS:
-                    died = outcome.failed
+                elif outcome.died and attempt + 1 < ATTEMPTS:
+                    again = True
                 else:
                     raise HdpeaError(f"{_name(tasks[outcome.index])} failed: {outcome.failed}")
-        if not died:
+        if not again:
             return
 
 

@@ -19,6 +19,7 @@ def test_every_task_has_its_outcome(jobs: int) -> None:
     outcomes = sorted(run_isolated(math.factorial, [3, 4, -1, 5], jobs, 60), key=lambda each: each.index)
     assert [each.result for each in outcomes] == [6, 24, None, 120]
     assert [each.failed for each in outcomes] == ["", "", "ValueError: factorial() not defined for negative values", ""]
+    assert not any(each.died for each in outcomes)
     assert list(run_isolated(math.factorial, [], jobs, 60)) == []
 
 
@@ -36,6 +37,7 @@ def test_a_process_that_ends_costs_its_task_only() -> None:
         "Its process ended with exit code 3.",
         "Its process ended with exit code 4.",
     ]
+    assert all(each.died for each in outcomes)
 
 
 def test_a_task_that_takes_too_long_is_given_up() -> None:
