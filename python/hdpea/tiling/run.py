@@ -154,11 +154,15 @@ def _work_folder(path: Path, key: str) -> Iterator[WorkFolder]:
     """
     digest = hashlib.sha256(key.encode()).hexdigest()
     told = path / KEY
-    if path.exists() and not (told.is_file() and told.read_text() == digest):
-        if any(path.iterdir()) and not told.is_file():
-            raise UsageError(f"The folder {path} is in use for something else.", "Name another folder for the work.")
-        shutil.rmtree(path)
+    if path.exists() and not path.is_dir():
+        raise UsageError(f"{path} is a file, no folder to work in.", "Name a folder for the work.")
     try:
+        if path.exists() and not (told.is_file() and told.read_text() == digest):
+            if any(path.iterdir()) and not told.is_file():
+                raise UsageError(
+                    f"The folder {path} is in use for something else.", "Name another folder for the work."
+                )
+            shutil.rmtree(path)
         path.mkdir(parents=True, exist_ok=True)
         told.write_text(digest)
     except OSError as error:

@@ -190,6 +190,14 @@ def test_errors_of_tasks_keep_their_kind(tmp_path: Path, jobs: int) -> None:
         reconstruct_in_tiles(torus_stream(), Tiling(tmp_path / "work", 1e9, jobs, tile_points=TILE_POINTS), options)
 
 
+def test_a_file_is_no_folder_to_work_in_and_stays(tmp_path: Path) -> None:
+    file = tmp_path / "notes.txt"
+    file.write_text("mine")
+    with pytest.raises(UsageError, match=r"notes\.txt is a file, no folder to work in\."):
+        reconstruct_in_tiles(torus_stream(), Tiling(file, 1e9, tile_points=TILE_POINTS))
+    assert file.read_text() == "mine"
+
+
 def test_what_tiles_do_not_have_is_refused(tmp_path: Path) -> None:
     options = Options(meshing=MeshingOptions(watertight=True))
     with pytest.raises(UsageError, match="watertight"):
