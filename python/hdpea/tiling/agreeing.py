@@ -18,7 +18,7 @@ Votes = dict[tuple[Piece, Piece], float]
 """Of two pieces, by how much more of the points say that they face to one side than that they do not."""
 
 BESIDE = 8
-"""Nearest points of a point by which pieces of one tile are found to lie beside each other."""
+"""Nearest points of a point by which a tile falls into pieces, and by which those are found that lie side by side."""
 
 FLATTEST, LEAST_AGREEMENT = 0.3, 0.8
 """Sine of the largest angle between a normal and the plane across a point beside it, and the least cosine, of either
@@ -137,6 +137,6 @@ def _signs(labels: dict[int, NDArray[np.int64]], votes: Votes, fixed: set[int]) 
 
 def pieces(neighbors: NDArray[np.integer]) -> NDArray[np.int64]:
     """Return the number (n,) of the connected piece that each point belongs to, by its `neighbors` (n, k), -1: none."""
-    rows, columns = np.nonzero(neighbors[:, :8] >= 0)
+    rows, columns = np.nonzero(neighbors[:, :BESIDE] >= 0)
     firsts = first_linked(len(neighbors), rows, neighbors[rows, columns])
     return np.unique(firsts, return_inverse=True)[1]

@@ -21,8 +21,9 @@ HALO, HALO_OF_VERTICES = 12.0, 8.0
 """Width of the halos in spacings of as many vertices as the points can show, and in those of the vertices wanted,
 whichever is wider."""
 
-COLLAR = 0.4
-"""How far beyond a tile its mesh is edited, in halos: what two tiles that are not neighbours edit is 0.4 apart."""
+COLLAR, APART = 0.4, 0.4
+"""How far beyond a tile its mesh is edited, and how far apart at least what two tiles edit that are not neighbours, in
+halos."""
 
 LEAST_CORE = 0.03
 """A tile is not cut further if it has less than this share of the points that it may have: the rest is its halo."""
@@ -145,7 +146,9 @@ def _neighbors(cells: Cells, low: NDArray[np.float64], high: NDArray[np.float64]
     """Return which tiles know points of each other, or both edit the mesh in one place."""
     core = np.array([cells.in_box(a, b) for a, b in zip(low, high, strict=True)])
     known = np.array([cells.in_box(a - halo, b + halo) for a, b in zip(low, high, strict=True)])
-    edited = np.array([cells.in_box(a - 0.6 * halo, b + 0.6 * halo) for a, b in zip(low, high, strict=True)])
+    # Half of what is to lie between them belongs to each.
+    claimed = (COLLAR + APART / 2) * halo
+    edited = np.array([cells.in_box(a - claimed, b + claimed) for a, b in zip(low, high, strict=True)])
     sees = (known.astype(np.float32) @ core.T.astype(np.float32)) > 0
     both = (edited.astype(np.float32) @ edited.T.astype(np.float32)) > 0
     neighbors = np.asarray(sees | sees.T | both)

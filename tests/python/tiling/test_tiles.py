@@ -176,6 +176,20 @@ def test_tiles_that_would_be_all_halo_are_made_twice_as_large() -> None:
     assert some == more > 2_000
 
 
+def test_a_wider_collar_makes_neighbours_of_tiles_farther_apart(monkeypatch: pytest.MonkeyPatch) -> None:
+    """What two tiles edit that are no neighbours stays apart, whatever the collar is."""
+    points = np.random.default_rng(0).random((20_000, 3)) * [1, 0.02, 0]
+    frame = UnitFrame.around(points)
+    cells = Cells.of([frame.to_unit(points)])
+    for collar in (plan.COLLAR, 1.5):
+        monkeypatch.setattr(plan, "COLLAR", collar)
+        tiles = plan.plan_tiles(cells, frame, Options(), 1_300)
+        one, other = np.nonzero(~tiles.neighbors & ~np.eye(tiles.tiles, dtype=bool))
+        apart = np.maximum(tiles.low[one, 0] - tiles.high[other, 0], tiles.low[other, 0] - tiles.high[one, 0])
+        assert len(one) > 0
+        assert (apart - 2 * tiles.collar >= 0.999 * plan.APART * tiles.halo).all()
+
+
 def test_points_far_away_are_told() -> None:
     points = np.vstack([np.random.default_rng(0).random((5_000, 3)), [[1e6, 0, 0]]])
     frame = UnitFrame.around(points)
