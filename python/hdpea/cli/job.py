@@ -72,7 +72,7 @@ def make_mesh(job: Job, progress: ProgressCallback | None) -> Report:
         return _make_in_tiles(job, stream, clock, progress)
     with clock.stage("reading"):
         cloud = read_scans(sources)
-    if not job.resources.suffice(len(cloud.points), job.options):
+    if not job.resources.suffice(len(cloud.points), job.options, normals=cloud.normals is not None):
         from hdpea.reading.streaming import stream_of_cloud
 
         return _make_in_tiles(job, stream_of_cloud(cloud, ", ".join(sources)), clock, progress)

@@ -11,16 +11,15 @@ from hdpea.cli.tiles import Resources
 from hdpea.errors import UsageError
 from hdpea.options import Options
 from hdpea.report.cost import (
-    PEAK_BYTES,
     TILED_DISK_BYTES,
     TILED_SECONDS,
     TILED_WHOLE_BYTES,
-    WITHOUT_NORMALS,
+    most_bytes,
     tiled_vertices_within,
 )
 from hdpea.report.inspection import CloudFacts
 from hdpea.surface.surface import MIN_POINTS
-from hdpea.tiling.run import Tiling
+from hdpea.tiling.run import Tiling, process_bytes
 
 ONE_PIECE = "--error and colours are for one piece: cut a larger cloud yourself"
 
@@ -47,8 +46,8 @@ class InTiles:
 
     @staticmethod
     def needed(facts: CloudFacts, resources: Resources) -> bool:
-        """Return whether a run in one piece has too little memory."""
-        return facts.counts["points"] >= MIN_POINTS and facts.estimated_peak_bytes > resources.bytes()
+        """Return whether a run in one piece has too little memory, should it take the most that it may."""
+        return facts.counts["points"] >= MIN_POINTS and _most(facts) > resources.bytes()
 
     @classmethod
     def of(cls, facts: CloudFacts, resources: Resources) -> Self | None:
@@ -62,7 +61,7 @@ class InTiles:
         return cls(
             jobs=tiling.workers(tile_points, points / vertices),
             seconds=TILED_SECONDS * points,
-            process_bytes=PEAK_BYTES.of(tile_points, round(tile_points * vertices / points)),
+            process_bytes=process_bytes(tile_points, points / vertices),
             whole_bytes=TILED_WHOLE_BYTES.of(points, vertices),
             disk_bytes=TILED_DISK_BYTES * points,
         )
@@ -74,11 +73,17 @@ def needs(facts: CloudFacts, resources: Resources) -> str:
     if points < MIN_POINTS:
         return f"at least {MIN_POINTS} points"
     cost = f"about {facts.estimated_seconds:.0f} s and {facts.estimated_peak_bytes / 1e9:.1f} GB"
-    if not (facts.counts["usable_normals"] and facts.normals_fit):
-        cost += f" (up to {WITHOUT_NORMALS * facts.estimated_peak_bytes / 1e9:.1f}, since normals are estimated)"
+    if (most := _most(facts)) > facts.estimated_peak_bytes:
+        cost += f" (up to {most / 1e9:.1f}, since normals are estimated)"
     if InTiles.needed(facts, resources):
         return f"{_in_tiles(facts, resources)}; in one piece {cost}. {ONE_PIECE}"
     return f"{cost} for {facts.default_vertices:,} vertices, on two idle cores"
+
+
+def _most(facts: CloudFacts) -> float:
+    """Return the most memory that a run in one piece may take."""
+    normals = bool(facts.counts["usable_normals"] and facts.normals_fit)
+    return most_bytes(facts.estimated_peak_bytes, normals=normals)
 
 
 def _in_tiles(facts: CloudFacts, resources: Resources) -> str:

@@ -67,11 +67,12 @@ class Resources:
             return self.memory
         return DEFAULT_SHARE * os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
 
-    def suffice(self, points: int, options: Options) -> bool:
-        """Return whether a cloud of so many points can be worked on in one piece."""
-        from hdpea.report.cost import PEAK_BYTES
+    def suffice(self, points: int, options: Options, *, normals: bool) -> bool:
+        """Return whether a cloud of so many points, with `normals` or without, can be worked on in one piece."""
+        from hdpea.report.cost import PEAK_BYTES, most_bytes
 
-        return PEAK_BYTES.of(points, options.vertices_of(points)) <= self.bytes()
+        used = normals and options.normals.normals != "estimate"
+        return most_bytes(PEAK_BYTES.of(points, options.vertices_of(points)), normals=used) <= self.bytes()
 
     def work_folder(self, output: Path | None) -> Path:
         """Return where the tiles of a mesh are kept meanwhile.
@@ -93,4 +94,6 @@ def stream_beyond(sources: tuple[str, ...], options: Options, resources: Resourc
     from hdpea.reading.streaming import stream_of
 
     stream = stream_of(Path(sources[0])) if len(sources) == 1 else None
-    return None if stream is None or resources.suffice(stream.count, options) else stream
+    if stream is None or resources.suffice(stream.count, options, normals=stream.normals):
+        return None
+    return stream

@@ -40,6 +40,8 @@ class PointStream:
         Whether only a piece of it is in memory at a time.
     attributes
         Returns the names of what its points have, where the pieces leave some of them out; none where they do not.
+    normals
+        Whether its header tells of normals.
     """
 
     name: str
@@ -50,6 +52,7 @@ class PointStream:
     identity: str = ""
     streamed: bool = True
     attributes: Callable[[], tuple[str, ...]] = tuple
+    normals: bool = False
 
 
 def stream_of(path: Path) -> PointStream | None:
@@ -132,7 +135,9 @@ def _ply_stream(path: Path, head: bytes) -> PointStream | None:
             yield from_columns({name: piece[name] for name in rows.names or ()}, "PLY")
 
     order = "little" if header.byte_order == "<" else "big"
-    return PointStream(str(path), f"binary {order}-endian PLY", count, chunks, identity=_identity(path))
+    normals = {"nx", "ny", "nz"} <= set(rows.names or ())
+    name = f"binary {order}-endian PLY"
+    return PointStream(str(path), name, count, chunks, identity=_identity(path), normals=normals)
 
 
 def _identity(path: Path) -> str:

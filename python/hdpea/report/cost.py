@@ -55,6 +55,17 @@ def seconds_of_run(points: int, vertices: int) -> float:
     return ON_TWO_CORES * PROCESSOR_SECONDS.of(points, vertices)
 
 
+def most_bytes(estimated: float, *, normals: bool) -> float:
+    """Return the most memory that a run in one piece may take of which so much is expected.
+
+    Parameters
+    ----------
+    normals
+        Whether the cloud has normals that are used.
+    """
+    return estimated if normals else WITHOUT_NORMALS * estimated
+
+
 def points_within(memory: float, points_per_vertex: float) -> int:
     """Return the points of the largest cloud that a run has room for in so many bytes, at so many points per vertex."""
     each = PEAK_BYTES.per_thousand_points + PEAK_BYTES.per_thousand_vertices / points_per_vertex

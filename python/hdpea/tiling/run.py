@@ -86,8 +86,12 @@ class Tiling:
         """Return how many processes work at a time on tiles of so many points."""
         if self.tile_points is not None:
             return self.jobs
-        held = HELD * PEAK_BYTES.of(tile_points, round(tile_points / points_per_vertex))
-        return max(min(self.jobs, int(self.memory / held)), 1)
+        return max(min(self.jobs, int(self.memory / process_bytes(tile_points, points_per_vertex))), 1)
+
+
+def process_bytes(tile_points: int, points_per_vertex: float) -> float:
+    """Return the memory of a process that works on tiles of so many points."""
+    return HELD * PEAK_BYTES.of(tile_points, round(tile_points / points_per_vertex))
 
 
 def reconstruct_in_tiles(

@@ -15,10 +15,12 @@ from helpers.files import WITH_NORMALS
 
 from hdpea.cli import run
 from hdpea.cli.info import crs_name
-from hdpea.cli.needs import InTiles
+from hdpea.cli.needs import InTiles, needs
 from hdpea.cli.tiles import Resources
+from hdpea.options import Options
 from hdpea.reading.cloud import PointCloud
 from hdpea.report.inspection import inspect
+from hdpea.tiling.run import Tiling, process_bytes
 
 Capture = pytest.CaptureFixture[str]
 
@@ -95,6 +97,16 @@ def test_what_tiles_need_fits_into_the_memory(memory: float, jobs: int) -> None:
     assert tiled is not None
     assert tiled.jobs == jobs
     assert jobs * tiled.process_bytes < memory
+    # As many processes are planned as have room by the figure that is told.
+    per_vertex = 10**7 / 10**5
+    assert tiled.process_bytes == process_bytes(Tiling(Path(), memory).sizes(Options(), 10**7)[0], per_vertex)
+
+
+def test_tiles_are_needed_by_the_most_that_is_told() -> None:
+    facts = replace(inspect(PointCloud(sphere_points(500), None, {})), estimated_peak_bytes=1e9)
+    assert "up to 1.4, since normals" in needs(facts, Resources(2e9))
+    assert InTiles.needed(facts, Resources(1.3e9))
+    assert not InTiles.needed(facts, Resources(1.5e9))
 
 
 def test_info_of_a_single_point(tmp_path: Path, capsys: Capture) -> None:

@@ -11,7 +11,7 @@ from helpers import clouds
 from hdpea.cli import run
 from hdpea.cli.tiles import MemoryType, Resources, stream_beyond
 from hdpea.errors import UsageError
-from hdpea.options import Options
+from hdpea.options import NormalOptions, Options
 
 
 @pytest.mark.parametrize(("text", "size"), [("4GB", 4e9), ("1.5 gb", 1.5e9), ("300MB", 3e8), ("1000", 1e3)])
@@ -27,8 +27,13 @@ def test_what_is_no_size_is_refused(text: str) -> None:
 
 def test_the_memory_decides_what_is_made_in_one_piece(tmp_path: Path) -> None:
     options = Options()
-    assert Resources(8e9).suffice(1_000_000, options)
-    assert not Resources(1e9).suffice(1_000_000, options)
+    assert Resources(8e9).suffice(1_000_000, options, normals=False)
+    assert not Resources(1e9).suffice(1_000_000, options, normals=True)
+    # 2.8 GB with normals, 3.9 if they have to be estimated.
+    estimated = Options(normals=NormalOptions(normals="estimate"))
+    assert Resources(3.3e9).suffice(1_000_000, options, normals=True)
+    assert not Resources(3.3e9).suffice(1_000_000, options, normals=False)
+    assert not Resources(3.3e9).suffice(1_000_000, estimated, normals=True)
     assert Resources().bytes() > 0
     path = tmp_path / "cloud.xyz"
     path.write_text("0 0 0\n")
