@@ -150,7 +150,7 @@ def _mesh_of_particles(
 ) -> Mesh:
     """Spread particles and join them; where that makes too few vertices, spread more."""
     count, share_kept = counts.particles, counts.vertices / counts.particles
-    spreading, choices = _spreading(options.particles, evened=counts.many and options.meshing.error is None)
+    spreading, choices = spreading_options(options.particles, evened=counts.many and options.meshing.error is None)
     attempts = list[Mesh]()
     while len(attempts) < ATTEMPTS:
         with clock.stage("particles"):
@@ -182,7 +182,7 @@ def _mesh_of_particles(
     return max(attempts, key=lambda mesh: len(mesh.vertices_in_unit))
 
 
-def _spreading(options: ParticleOptions, *, evened: bool) -> tuple[ParticleOptions, tuple[Choice, ...]]:
+def spreading_options(options: ParticleOptions, *, evened: bool) -> tuple[ParticleOptions, tuple[Choice, ...]]:
     """Return the options with a number of steps: fewer if the mesh is `evened` out afterwards."""
     if options.iterations is not None:
         return options, ()

@@ -3,6 +3,8 @@
 
 from __future__ import annotations
 
+from dataclasses import asdict
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -77,7 +79,7 @@ def join(work: Work) -> None:
         agreed.share_kept,
         agreed.resolution,
     )
-    facts = {"statistics": mesh.statistics, "particles": len(positions)}
+    facts = {"statistics": mesh.statistics, "particles": len(positions), "choices": list(map(asdict, mesh.choices))}
     save_mesh(work, 0, mesh.vertices_in_unit, mesh.faces, mesh.patches, facts)
 
 

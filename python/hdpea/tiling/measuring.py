@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How far the points of a tile are from the finished mesh, and the mesh from them."""
+"""How far the points of a tile are from the finished mesh, before and after denoising, and the mesh from them."""
 
 from __future__ import annotations
 
@@ -34,12 +34,17 @@ def measure(work: Work, tile: int) -> None:
         "area": mesh_area(own.vertices_in_unit, own.faces),
         "area_without_points": 0.0,
         "mesh_to_points": 0.0,
-        "moved": float(np.linalg.norm(kept["points"] - kept["given"], axis=1).max()),
+        # At the rim of a halo points lack neighbours, and are moved where their own tile does not move them.
+        "moved": float(np.linalg.norm((kept["points"] - kept["given"])[kept["own"]], axis=1).max(initial=0.0)),
+        "points_to_mesh": np.inf if kept["own"].any() else 0.0,
     }
     distances, heights = np.full(len(given.points_in_unit), np.inf), np.full(len(given.points_in_unit), np.nan)
     if len(around.faces):
         distances = distances_to(around, given)
         heights = height_differences(around, given, distances)
+        embedded = replace(surface, points_in_unit=np.ascontiguousarray(kept["points"][kept["own"]]))
+        moved = work.folder.facts("prepared", tile)["denoised"]
+        facts["points_to_mesh"] = float((distances_to(around, embedded) if moved else distances).max(initial=0.0))
         facts["points_without_mesh"] = agreement_of(around, surface, vertices).points_without_mesh
     if len(own.faces):
         facts["area_without_points"] = agreement_of(own, surface, vertices).area_without_points
@@ -72,6 +77,6 @@ def measured(work: Work) -> tuple[Distances, Agreement, AchievedError, HeightDif
         float(np.average([some["points_without_mesh"] for some in facts], weights=points)),
         float(np.average([some["area_without_points"] for some in facts], weights=area)),
     )
-    mesh_to_points, moved = (diagonal * max(some[name] for some in facts) for name in ("mesh_to_points", "moved"))
-    error = AchievedError(None, float(distances.max()), mesh_to_points, moved)
+    farthest = [diagonal * max(some[name] for some in facts) for name in ("points_to_mesh", "mesh_to_points", "moved")]
+    error = AchievedError(None, *farthest)
     return Distances.of(distances, spacing * diagonal), agreement, error, along_z

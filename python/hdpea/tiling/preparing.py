@@ -88,5 +88,5 @@ def embed(work: Work, tile: int) -> None:
     embedded = embed_surface(surface, vertices, options)
     own = work.folder.load("prepared", tile)["own"]
     areas = areas_shown(embedded.coordinates, surface.neighbors)
-    facts = {"area": float(areas[own].sum())}
+    facts = {"area": float(areas[own].sum()), "choices": [asdict(choice) for choice in embedded.choices]}
     work.folder.save("embedded", tile, {"coordinates": embedded.coordinates, "areas": areas}, facts)

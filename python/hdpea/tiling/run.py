@@ -16,7 +16,6 @@ from hdpea.frontend.classes import stream_of_classes, taken_note
 from hdpea.frontend.cleaning import dropped_notes
 from hdpea.mesh.extraction import Mesh
 from hdpea.options import Options
-from hdpea.options.choice import Choice
 from hdpea.reading.streaming import PointStream
 from hdpea.report.cost import PEAK_BYTES, points_within
 from hdpea.report.measurement import mesh_facts, missed_targets
@@ -26,6 +25,7 @@ from hdpea.runtime.clock import Stage, StageClock
 from hdpea.runtime.progress import ProgressCallback, tell
 from hdpea.runtime.pytorch import check_pytorch
 from hdpea.surface.surface import MIN_POINTS
+from hdpea.tiling.choices import choices_of
 from hdpea.tiling.folder import WorkFolder
 from hdpea.tiling.intake import take_in
 from hdpea.tiling.measuring import measured
@@ -201,14 +201,7 @@ def _result(stream: PointStream, work: Work, journal: Journal) -> Reconstruction
     }
     dropped = {name: sum(each["dropped"][name] for each in tiles) for name in tiles[0]["dropped"]}
     journal.counts |= dropped
-    diagonal, agreed = work.plan.frame.diagonal, work.folder.facts("agreed")
-    why = "beyond a tile, its points are known"
-    journal.choices += [
-        Choice("tiles", work.plan.tiles, "", f"of {work.plan.tile_points:,} points at most, halo included"),
-        Choice("halo", work.plan.halo * diagonal, "world units", why),
-        Choice("vertices", agreed["vertices"], "", "of all tiles together"),
-        Choice("particles", agreed["particles"], "", "of all tiles together"),
-    ]
+    journal.choices += choices_of(work)
     journal.meshing |= facts["statistics"]
     journal.notes += [_note(stream, work), *dropped_notes(dropped, work.plan.points)]
     journal.notes += dict.fromkeys(note for each in tiles for note in each["notes"])

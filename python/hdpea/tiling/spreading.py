@@ -3,14 +3,13 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from hdpea.mesh.assembly import spreading_options
 from hdpea.mesh.particles import Particles, spread_particles
-from hdpea.options.particles import ITERATIONS, ITERATIONS_OF_MANY
 from hdpea.tiling.work import Agreed, EmbeddedTile, Work
 
 
@@ -49,15 +48,13 @@ def spread(work: Work, tile: int) -> None:
     count = min(round(agreed.particles * area / whole), int(free.sum()))
     positions, normals = np.empty((0, 3)), np.empty((0, 3))
     if count > 0:
-        many = agreed.particles > agreed.vertices
-        given = work.options.particles.iterations
-        steps = (ITERATIONS_OF_MANY if many else ITERATIONS) if given is None else given
+        options, _ = spreading_options(work.options.particles, evened=agreed.particles > agreed.vertices)
         spread = spread_particles(
             embedded.coordinates,
             embedded.bases,
             surface.neighbors,
             count,
-            options=replace(work.options.particles, iterations=steps),
+            options=options,
             device=work.options.embedding.device,
             placed=placed,
             free=free,
