@@ -6,6 +6,7 @@ from __future__ import annotations
 import re
 import shutil
 import subprocess
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -13,6 +14,9 @@ import pytest
 from numpy.typing import NDArray
 
 BROWSERS = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable", "chrome")
+PATIENCE = 60.0
+"""Seconds for a page that takes three: now and then Chromium never ends, and does the next time."""
+
 WITHOUT_GPU = ("--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader")
 
 
@@ -30,7 +34,7 @@ class Browser:
     def drawn(self, page: Path, fragment: str = "") -> tuple[int, int]:
         """Return how many triangles and points a page draws; nothing may be said on its console."""
         url = f"{page.as_uri()}#{fragment}"
-        made = subprocess.run([*self.command, "--dump-dom", url], capture_output=True, text=True, check=True)
+        made = self._run("--dump-dom", url)
         assert "CONSOLE" not in made.stderr
         body = re.search(r'<body data-triangles="(\d+)" data-points="(\d+)"', made.stdout)
         assert body is not None
@@ -42,6 +46,13 @@ class Browser:
 
         picture = self.folder / "screenshot.png"
         url = f"{page.as_uri()}#{fragment}"
-        subprocess.run([*self.command, f"--screenshot={picture}", url], capture_output=True, check=True)
+        self._run(f"--screenshot={picture}", url)
         with Image.open(picture) as image:
             return np.asarray(image.convert("RGB"), dtype=int)
+
+    def _run(self, *arguments: str) -> subprocess.CompletedProcess[str]:
+        run = partial(subprocess.run, [*self.command, *arguments], capture_output=True, text=True, check=True)
+        try:
+            return run(timeout=PATIENCE)
+        except subprocess.TimeoutExpired:
+            return run(timeout=PATIENCE)
