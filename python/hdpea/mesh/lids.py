@@ -26,9 +26,9 @@ boot, engine, lattice_lamp and anchor, opened patches leave less debris, and rms
 LEAST_EMPTY = 0.05
 """Share of the area of a lid that is so far from points, at least.
 
-A tear that winds through a part is so wide in a place or two: a 400th of its area on adis16480. With 0.1 a membrane of
-battery_holder_aa stays, which has 0.06, and its HDs are 2.9 instead of 1.2. Of pipes with 20 to 40 points around as many
-mouths are open with 0 as with 0.15."""
+A tear that winds through a part is so wide in a place or two: a 400th of its area on adis16480. With 0.1 a membrane
+of battery_holder_aa stays, which has 0.06, and its HDs are 2.9 instead of 1.2. Of pipes with 20 to 40 points around as
+many mouths are open with 0 as with 0.15."""
 
 ACROSS = 0.7
 """Mean cosine of the angle between a patch and the faces around it under which it does not continue the surface: 45
