@@ -6,6 +6,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+RGB = ("red", "green", "blue")
+"""How files name the parts of a colour."""
+
 
 def linear_of_srgb(color: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return linear light, 0 to 1, of sRGB values, 0 to 1."""

@@ -12,10 +12,10 @@ from numpy.typing import NDArray
 
 from hdpea import _core
 from hdpea.errors import core_errors_translated
-from hdpea.geometry.color import linear_of_srgb, srgb_of_linear
+from hdpea.geometry.color import RGB, linear_of_srgb, srgb_of_linear
 from hdpea.geometry.triangles import area_vectors
 from hdpea.mesh.extraction import Mesh
-from hdpea.reading.attributes import RGB, is_label, split_colors, without_sensors
+from hdpea.reading.attributes import is_label, split_colors, without_sensors
 from hdpea.surface.surface import Surface
 
 CORRECTIONS = 1

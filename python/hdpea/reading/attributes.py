@@ -9,13 +9,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from hdpea.geometry.color import RGB
 from hdpea.reading.cloud import SENSOR_NAMES
 from hdpea.reading.names import plain_name
 
 Attributes = Mapping[str, NDArray[Any]]
 """Arrays (n, ...) by name."""
-
-RGB = ("red", "green", "blue")
 
 COLOR_COLUMNS = (RGB, ("r", "g", "b"), ("diffuse_red", "diffuse_green", "diffuse_blue"))
 COLOR_ARRAYS = ("colors", "color", "rgb", "rgba")

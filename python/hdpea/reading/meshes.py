@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hdpea.errors import UnreadableInput
-from hdpea.reading.attributes import RGB
+from hdpea.geometry.color import RGB
 from hdpea.reading.cloud import MESH_NOTE, PointCloud, from_columns
 from hdpea.reading.tables import columns_by_name, look_like_normals, name_columns, parse_table, without_words_for_nan
 

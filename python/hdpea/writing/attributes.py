@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from hdpea.errors import UsageError
-from hdpea.reading.attributes import RGB
+from hdpea.geometry.color import RGB
 
 _INT32 = np.iinfo(np.int32)
 

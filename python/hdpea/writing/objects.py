@@ -11,8 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hdpea.errors import UsageError
+from hdpea.geometry.color import RGB
 from hdpea.geometry.triangles import vertex_normals
-from hdpea.reading.attributes import RGB
 from hdpea.writing.attributes import colors_of
 
 if TYPE_CHECKING:
