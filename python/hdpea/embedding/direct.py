@@ -35,8 +35,7 @@ def embed_directly(surface: Surface, vertices: int, options: EmbeddingOptions, p
         if given is not None:
             return surface.frame.length_to_unit(given)
         chosen = per_spacing * spacing
-        why = f"{per_spacing:g} times the spacing of {vertices:,} vertices on the surface"
-        choices.append(Choice(name, chosen * surface.frame.diagonal, "world units", why))
+        choices.append(length_choice(name, chosen * surface.frame.diagonal, per_spacing, vertices))
         return chosen
 
     bending_length = min(choose("bending_length", options.bending_length, BENDING_LENGTH), LONGEST_BENDING)
@@ -45,3 +44,9 @@ def embed_directly(surface: Surface, vertices: int, options: EmbeddingOptions, p
     curvature = _core.estimate_curvature(points, normals, surface.neighbors, metric.curvature_radius)
     psi = _core.solve_embedding(points, normals, curvature, soup.triangles, soup.weights, metric.solver(), progress)
     return Embedded(np.hstack([points, psi]), tuple(choices), metric)
+
+
+def length_choice(name: str, in_world: float, per_spacing: float, vertices: int) -> Choice:
+    """Return what the report tells of a length that was chosen as so many spacings of so many vertices."""
+    why = f"{per_spacing:g} times the spacing of {vertices:,} vertices on the surface"
+    return Choice(name, in_world, "world units", why)

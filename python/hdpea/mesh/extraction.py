@@ -113,9 +113,6 @@ def extract_mesh(
         normals = np.ascontiguousarray(surface.normals[particles.nearest])
         candidates, radii = restricted_cells(particles.coordinates, bases[particles.nearest], DISK_RADIUS)
         on_points = covered(candidates, particles, surface, resolution)
-        why = f"{DISK_RADIUS:g} mean distances of the particles in the embedding; more where they are sparse"
-        smallest = float(radii.min()) * surface.frame.diagonal
-        disks = Choice("disk_radius", smallest, "world units under the metric", why)
         mesh = join_triangles(
             on_points,
             particles.coordinates,
@@ -128,7 +125,14 @@ def extract_mesh(
             exact=exact,
         )
         refused = {"refused_uncovered": len(candidates.triangles) - len(on_points.triangles)}
-        return replace(mesh, statistics=refused | mesh.statistics, choices=(disks, *mesh.choices))
+        choices = (smallest_disk(radii, surface.frame), *mesh.choices)
+        return replace(mesh, statistics=refused | mesh.statistics, choices=choices)
+
+
+def smallest_disk(radii: NDArray[np.float64], frame: UnitFrame) -> Choice:
+    """Return the radius that was chosen for the disks, as the smallest (m,) of all is."""
+    why = f"{DISK_RADIUS:g} mean distances of the particles in the embedding; more where they are sparse"
+    return Choice("disk_radius", float(radii.min()) * frame.diagonal, "world units under the metric", why)
 
 
 def join_triangles(

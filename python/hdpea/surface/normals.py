@@ -120,7 +120,7 @@ def oriented_surface(
     tell(progress, "normals", 0)
     with core_errors_translated():
         refused = options.normals == "auto" and not are_normals(points, given)
-        cloud = _Cloud.of(points, given, usable & ~np.bool_(refused))
+        cloud = _Cloud.of(points, given, usable & (not refused))
         directions, choices = _directions(cloud, options, points_per_vertex)
         evidence = _evidence(cloud, frame, sensors_in_world, options)
         seen_from = _seen_from(frame, sensors_in_world, options) if options.orient == "viewpoint" else None

@@ -6,11 +6,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-import numpy as np
-
 from hdpea.embedding.device import device_choices
+from hdpea.embedding.direct import length_choice
 from hdpea.mesh.assembly import spreading_options
-from hdpea.mesh.extraction import DISK_RADIUS
 from hdpea.options.choice import Choice
 from hdpea.options.embedding import BENDING_LENGTH, CURVATURE_RADIUS
 from hdpea.tiling.work import Agreed, Work
@@ -32,7 +30,7 @@ def choices_of(work: Work) -> list[Choice]:
         *map(_choice, work.folder.facts("agreed")["choices"]),
         *_lengths(work),
         *merged(of_embedding, points),
-        *_of_particles(work),
+        *_steps(work),
         *map(_choice, work.folder.facts("mesh", 0)["choices"]),
     ]
 
@@ -75,29 +73,22 @@ def _lengths(work: Work) -> list[Choice]:
     agreed, options = Agreed.of(work), work.options.embedding
     if options.embedding != "direct":
         return []
-    spacing, why = (
-        agreed.spacing * work.plan.frame.diagonal,
-        f"the spacing of {agreed.resolution:,} vertices on the surface",
-    )
+    spacing = agreed.spacing * work.plan.frame.diagonal
     asked = {
         "bending_length": (options.bending_length, BENDING_LENGTH),
         "curvature_radius": (options.curvature_radius, CURVATURE_RADIUS),
     }
     return [
-        Choice(name, spacings * spacing, "world units", f"{spacings:g} times {why}")
+        length_choice(name, spacings * spacing, spacings, agreed.resolution)
         for name, (given, spacings) in asked.items()
         if given is None
     ]
 
 
-def _of_particles(work: Work) -> list[Choice]:
-    """Return the steps of the particles, and the radius of the smallest disk of all tiles."""
+def _steps(work: Work) -> tuple[Choice, ...]:
+    """Return the number of steps of the particles, if it was not given."""
     agreed = Agreed.of(work)
-    _, steps = spreading_options(work.options.particles, evened=agreed.particles > agreed.vertices)
-    radii = np.concatenate([work.folder.load("triangles", tile)["radii"] for tile in range(work.plan.tiles)])
-    smallest = float(radii.min(initial=np.inf)) * work.plan.frame.diagonal
-    why = f"{DISK_RADIUS:g} mean distances of the particles in the embedding; more where they are sparse"
-    return [*steps, Choice("disk_radius", smallest, "world units under the metric", why)]
+    return spreading_options(work.options.particles, evened=agreed.particles > agreed.vertices)[1]
 
 
 def _choice(kept: dict[str, Any]) -> Choice:

@@ -12,7 +12,7 @@ from hdpea import _core
 from hdpea.geometry.triangles import circumradii
 from hdpea.mesh.cells import restricted_cells
 from hdpea.mesh.coverage import covered
-from hdpea.mesh.extraction import DISK_RADIUS, join_triangles
+from hdpea.mesh.extraction import DISK_RADIUS, join_triangles, smallest_disk
 from hdpea.mesh.particles import Particles
 from hdpea.surface.surface import area_shown
 from hdpea.tiling.spreading import Placed
@@ -79,7 +79,9 @@ def join(work: Work) -> None:
         agreed.share_kept,
         agreed.resolution,
     )
-    facts = {"statistics": mesh.statistics, "particles": len(positions), "choices": list(map(asdict, mesh.choices))}
+    disks = smallest_disk(np.concatenate([each["radii"] for each in proposed]), work.plan.frame)
+    choices = [asdict(choice) for choice in (disks, *mesh.choices)]
+    facts = {"statistics": mesh.statistics, "particles": len(positions), "choices": choices}
     save_mesh(work, 0, mesh.vertices_in_unit, mesh.faces, mesh.patches, facts)
 
 

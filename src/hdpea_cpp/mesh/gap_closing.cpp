@@ -106,9 +106,9 @@ class GapCloser {
       for (std::size_t j = 0; j < b.size(); ++j) {
         const auto [p, q, r, s] = ends(a, i, b, j);
         if (are_joined(p, r) || are_joined(p, s) || are_joined(q, r)) continue;
-        const double across[2] = {distance(q, r), distance(p, s)};
-        if (std::min(across[0], across[1]) == 0) continue;  // a pinched vertex is in both loops: no face fits there
-        const double length = across[0] + across[1];
+        const double from_q = distance(q, r), from_p = distance(p, s);
+        if (from_q == 0 || from_p == 0) continue;  // a pinched vertex is in both loops: no face fits there
+        const double length = from_q + from_p;
         if (length < least) least = length, at_a = i, at_b = j;
       }
     }
