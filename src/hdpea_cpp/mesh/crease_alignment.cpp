@@ -27,6 +27,9 @@ struct Crossing {
 constexpr int kRounds = 4;
 /// A vertex moves less than this share of the edges at it; the nearest go first, as they drag the mesh the least.
 constexpr double kNearest = 0.2, kNear = 0.35, kFarthest = 0.7;
+/// Nor does it move farther than this, in spacings of the crease. Where edges are much longer than that, the planes of
+/// the points have put vertices on creases already, and others would be torn off the surface.
+constexpr double kFarthestOfSpacing = 1.5;
 /// What is this near a crease, in its spacings, lies on it already.
 constexpr double kOnCrease = 0.05;
 /// No face may turn by more than the angle of this cosine, nor shrink below this share of its area by a move, or of its
@@ -83,12 +86,12 @@ class Alignment {
     constexpr Index candidates = 4;
     if (creases_.corners.empty()) return;
     const Points corners = crease_corners(creases_);
-    const Neighbors near = nearest_neighbors(vertices_, corners, candidates);
+    const Neighbors near = nearest_neighbors(vertices_, corners, candidates), samples = lines_.near(corners);
     for (Index c = 0; c < corners.rows(); ++c) {
       for (Index v : near.row(c)) {
         if (v < 0 || held_[v]) continue;
         if ((at(v) - corners.row(c)).norm() > kFarthest * lengths_(v)) continue;
-        if (move(v, corners.row(c))) break;
+        if (move(v, corners.row(c), samples(c, 0))) break;
       }
     }
   }
@@ -99,15 +102,17 @@ class Alignment {
       for (Index s : near_.row(v)) {
         if (held_[v] || s < 0) break;
         if (lines_.covers(s, at(v)) && lines_.distance(s, at(v)) <= kOnCrease * lines_.spacing(s))
-          move(v, lines_.foot(s, at(v)));
+          move(v, lines_.foot(s, at(v)), s);
       }
     }
   }
 
-  /// Moves a vertex onto a crease unless that would turn a face over or squash it.
-  bool move(Index v, const Vector& to) {
+  /// Moves a vertex onto a crease near one of its samples, unless that is too far, or would turn a face over or squash
+  /// it.
+  bool move(Index v, const Vector& to, Index sample) {
     if (fixed_.size() > 0 && fixed_(v)) return false;
     const Vector from = at(v);
+    if ((to - from).norm() > kFarthestOfSpacing * lines_.spacing(sample)) return false;
     const std::vector<Index> around = mesh_.faces_around(v);
     std::vector<Vector> before;
     for (Index f : around) before.push_back(area(f));
@@ -190,7 +195,7 @@ class Alignment {
       // An edge that was flipped is another one by now.
       if (v != mesh_.source(h) && v != mesh_.target(h)) continue;
       if (held_[mesh_.source(h)] || held_[mesh_.target(h)]) continue;
-      move(v, nearest_on_crease(v, crossings[c].sample));
+      move(v, nearest_on_crease(v, crossings[c].sample), crossings[c].sample);
     }
   }
 

@@ -8,7 +8,7 @@ namespace hdpea {
 /// How a mesh is fitted to a cloud.
 struct RefinementOptions {
   Index rounds = 2;         ///< rounds of projection and fitting; 0 leaves the mesh as it is
-  double pull = 0.005;      ///< weight of staying, as a share of the points per vertex, > 0
+  double pull = 0.01;       ///< weight of staying, as a share of the points per vertex, > 0
   double min_cosine = 0.3;  ///< points whose normal agrees less with their face's belong to another sheet
   double max_gap = 0.5;     ///< how far from the points a vertex may move, in sizes of its faces, sqrt(2 area)
   double max_turn = 60;     ///< degrees a face may turn in one round

@@ -21,10 +21,10 @@ shapes::Mesh folded_grid() {
   return grid;
 }
 
-Creases fold() {
+Creases fold(double spacing = 0.04) {
   Creases creases;
-  for (double y = 0; y <= 1; y += 0.02) {
-    creases.samples.push_back({{0.45, y, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 0}, 0.04, 0});
+  for (double y = 0; y <= 1; y += spacing / 2) {
+    creases.samples.push_back({{0.45, y, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 0}, spacing, 0});
   }
   return creases;
 }
@@ -41,6 +41,11 @@ TEST(CreaseAlignment, LeavesNoEdgeAcrossTheCrease) {
     EXPECT_FALSE(first && second);
   }
   EXPECT_GT(crease_edges(aligned.vertices, aligned.faces, fold()).rows(), 7);
+}
+
+TEST(CreaseAlignment, LeavesVerticesThatAreManySpacingsOff) {
+  const auto grid = folded_grid();
+  EXPECT_EQ(align_to_creases(grid.vertices, grid.faces, fold(0.01)).vertices, grid.vertices);
 }
 
 TEST(CreaseAlignment, KeepsTheTopology) {
