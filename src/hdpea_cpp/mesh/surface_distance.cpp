@@ -105,7 +105,7 @@ class ClosestOfTriangle {
 class Surface {
  public:
   Surface(const PointsRef& vertices, const FacesRef& faces)
-      : vertices_(vertices), faces_(faces), centroids_(faces.rows(), 3) {
+      : vertices_(vertices), faces_(faces), extent_(vertices.cwiseAbs().maxCoeff()), centroids_(faces.rows(), 3) {
     const auto point = [&](Index v) { return Kernel::Point_3(vertices(v, 0), vertices(v, 1), vertices(v, 2)); };
     std::vector<Face> all;
     all.reserve(faces.rows());
@@ -120,6 +120,8 @@ class Surface {
   }
 
   const Coordinates& centroids() const { return centroids_; }
+  /// The largest coordinate, which rounding goes by.
+  double extent() const { return extent_; }
   const Tree& tree() const { return tree_; }
 
   ClosestOfTriangle closest(Index f, const Vector& query) const {
@@ -129,11 +131,15 @@ class Surface {
  private:
   const PointsRef& vertices_;
   const FacesRef& faces_;
+  double extent_;
   Coordinates centroids_;
   Tree tree_;
 };
 
 /// CGAL's traversal, with our own distance: CGAL's asks for faces with area and leaves ties to the tree.
+///
+/// The faces at an edge or a corner are equally far from all that is nearest to it, but for rounding, which is another
+/// in other units: distances that differ by no more count as equal, and the face of lowest index is the nearest.
 class Traversal {
  public:
   Traversal(const Surface& surface, const Vector& query, Index hint)
@@ -143,12 +149,12 @@ class Traversal {
 
   void intersection(const Vector&, const Primitive& primitive) {
     const double distance = surface_.closest(primitive.id(), query_).distance();
-    if (distance > distance_ || (distance == distance_ && primitive.id() > face_)) return;
-    distance_ = distance;
-    face_ = primitive.id();
+    if (distance > farthest_equal(distance_)) return;
+    if (farthest_equal(distance) < distance_ || primitive.id() < face_) face_ = primitive.id();
+    distance_ = std::min(distance, distance_);
   }
 
-  /// With room for rounding: a face exactly as far as the best must be seen, for its index may be lower.
+  /// A face as far as the best must be seen, for its index may be lower.
   template <class Node>
   bool do_intersect(const Vector&, const Node& node) const {
     double sum = 0;
@@ -156,12 +162,17 @@ class Traversal {
       const double gap = std::max({node.bbox().min(c) - query_[c], query_[c] - node.bbox().max(c), 0.0});
       sum += gap * gap;
     }
-    return sum <= distance_ * distance_ * (1 + 1e-12);
+    return sum <= std::pow(farthest_equal(distance_), 2);
   }
 
   Index face() const { return face_; }
 
  private:
+  double farthest_equal(double distance) const {
+    constexpr double relative = 1e-9, of_coordinates = 1e-14;
+    return (1 + relative) * distance + of_coordinates * surface_.extent();
+  }
+
   const Surface& surface_;
   const Vector& query_;
   Index face_;

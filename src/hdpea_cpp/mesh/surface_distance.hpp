@@ -9,7 +9,7 @@ namespace hdpea {
 struct SurfacePoints {
   /// (m) Euclidean distance from the query.
   Eigen::VectorXd distance;
-  /// (m) the face the point lies on; the lowest index where it lies on several.
+  /// (m) the face the point lies on; the lowest index where it lies on several, but for rounding.
   Eigen::Vector<Index, Eigen::Dynamic> face;
   /// (m, 3) weights of the face's corners, >= 0, of sum 1.
   Points barycentric;

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 #include <random>
 
@@ -26,21 +27,20 @@ SurfacePoints closest(const Mesh& mesh, const Points& queries) {
   return closest_surface_points(mesh.vertices, mesh.faces, queries);
 }
 
-/// The least distance over each face alone, and the lowest face that has it.
+/// The least distance over each face alone, and the lowest face that has it but for rounding.
 void expect_closest_of_all_faces(const Mesh& mesh, const Points& queries) {
   const SurfacePoints found = closest(mesh, queries);
   Eigen::VectorXd least = Eigen::VectorXd::Constant(queries.rows(), std::numeric_limits<double>::infinity());
   Eigen::Vector<Index, Eigen::Dynamic> face(queries.rows());
+  constexpr double rounding = 1e-9;
   for (Index f = 0; f < mesh.faces.rows(); ++f) {
     const SurfacePoints alone = closest({mesh.vertices, mesh.faces.row(f)}, queries);
     for (Index i = 0; i < queries.rows(); ++i) {
-      if (alone.distance(i) < least(i)) {
-        least(i) = alone.distance(i);
-        face(i) = f;
-      }
+      if (alone.distance(i) < least(i) - rounding) face(i) = f;
+      least(i) = std::min(alone.distance(i), least(i));
     }
   }
-  EXPECT_EQ(found.distance, least);
+  EXPECT_LT((found.distance - least).cwiseAbs().maxCoeff(), rounding);
   EXPECT_EQ(found.face, face);
 }
 
@@ -91,6 +91,15 @@ TEST(SurfaceDistance, DoesNotDependOnThreads) {
   set_thread_limit(0);
   EXPECT_EQ(many.distance, one.distance);
   EXPECT_EQ(many.face, one.face);
+}
+
+TEST(SurfaceDistance, FindsTheSameFacesInOtherUnits) {
+  Mesh mesh = shapes::torus(30, 20);
+  Points queries = random_points(3000, 1.5);
+  const SurfacePoints found = closest(mesh, queries);
+  mesh.vertices *= 1000;
+  queries *= 1000;
+  EXPECT_EQ(closest(mesh, queries).face, found.face);
 }
 
 TEST(SurfaceDistance, RefusesABadContract) {
