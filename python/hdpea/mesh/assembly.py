@@ -88,7 +88,15 @@ def assemble_mesh(
     mesh = _mesh_of_particles(surface, coordinates, bases, options, counts, progress, clock, exact=shown.exact)
     reaches = shown.exact and counts.many and options.refinement.refine
     with clock.stage("refinement"):
-        every_point = FitTarget(surface, coordinates, bases, find_creases(surface), options.refinement, progress)
+        every_point = FitTarget(
+            surface,
+            coordinates,
+            bases,
+            find_creases(surface),
+            options.refinement,
+            progress,
+            within_error=options.meshing.error is not None,
+        )
         target = every_point.of_kept_pieces(mesh, counts.vertices)
         mesh = target.fitted(mesh)
         if reaches:

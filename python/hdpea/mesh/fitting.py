@@ -44,6 +44,8 @@ class FitTarget:
         How meshes are fitted.
     progress
         Hears of the phases refinement, simplification and remeshing.
+    within_error
+        Whether meshes are to keep within an error, and need not be even.
     """
 
     surface: Surface
@@ -52,6 +54,7 @@ class FitTarget:
     creases: _core.Creases
     options: RefinementOptions
     progress: ProgressCallback | None = None
+    within_error: bool = False
 
     def of_kept_pieces(self, mesh: Mesh, vertices: int) -> FitTarget:
         """Return it without the points of pieces that were dropped from a mesh of so many vertices in the end."""
@@ -69,7 +72,8 @@ class FitTarget:
     def fitted(self, mesh: Mesh) -> Mesh:
         """Return the mesh with edges along the creases and vertices where the points have them."""
         mesh = align_to_creases(mesh, self.creases)
-        return refine_mesh(mesh, self.surface, self.options, of_phase(self.progress, "refinement"))
+        progress = of_phase(self.progress, "refinement")
+        return refine_mesh(mesh, self.surface, self.options, progress, within_error=self.within_error)
 
     def reached(self, mesh: Mesh, vertices: int) -> Mesh:
         """Return the mesh drawn to points that are far from it, by the spacing of so many vertices."""

@@ -22,15 +22,18 @@ def refine_mesh(
     options: RefinementOptions | None = None,
     progress: PhaseCallback | None = None,
     fixed: NDArray[np.bool_] | None = None,
+    *,
+    within_error: bool = False,
 ) -> Mesh:
     """Return the mesh with its vertices moved so that the faces run through the points (least squares).
 
     Faces, and with them manifoldness and topology, stay as they are, and so do `fixed` vertices (v,), if any.
+    For a mesh that is to keep within an error, which need not be even, they move more freely.
     """
     options = options or RefinementOptions()
     if not options.refine:
         return mesh
-    fit = _core.RefinementOptions()
+    fit = _core.RefinementOptions.within_error() if within_error else _core.RefinementOptions()
     fit.rounds = options.rounds
     with core_errors_translated():
         vertices = _core.refine_vertices(

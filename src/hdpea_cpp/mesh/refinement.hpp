@@ -13,6 +13,9 @@ struct RefinementOptions {
   double max_gap = 0.5;     ///< how far from the points a vertex may move, in sizes of its faces, sqrt(2 area)
   double max_turn = 60;     ///< degrees a face may turn in one round
   double min_area = 0.2;    ///< share of its area that a face keeps in one round
+
+  /// Where an error is to be kept, nothing is to be even: vertices stay less, and faces come nearer to the points.
+  static RefinementOptions within_error() { return {.pull = 0.005}; }
 };
 
 /// Moves the vertices so that the faces run through the cloud, by least squares.

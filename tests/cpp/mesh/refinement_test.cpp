@@ -85,8 +85,7 @@ TEST(Refinement, NoVertexLeavesTheCloud) {
   Points points(3, 3);
   points << -0.02, 0.3, -0.02, 0.02, 0.3, 0.02, 0, 0.34, 0;
   const Points normals = Eigen::RowVector3d::UnitZ().replicate(3, 1);
-  RefinementOptions loose;
-  loose.pull = 0.005;
+  RefinementOptions loose = RefinementOptions::within_error();
   const Points refined = refine_vertices(triangle.vertices, triangle.faces, points, normals, loose);
   EXPECT_LT(refined.col(2).cwiseAbs().maxCoeff(), 0.1);
   loose.max_gap = 100;

@@ -32,7 +32,7 @@ void expect_closest_of_all_faces(const Mesh& mesh, const Points& queries) {
   const SurfacePoints found = closest(mesh, queries);
   Eigen::VectorXd least = Eigen::VectorXd::Constant(queries.rows(), std::numeric_limits<double>::infinity());
   Eigen::Vector<Index, Eigen::Dynamic> face(queries.rows());
-  constexpr double rounding = 1e-9;
+  constexpr double rounding = 1e-14;
   for (Index f = 0; f < mesh.faces.rows(); ++f) {
     const SurfacePoints alone = closest({mesh.vertices, mesh.faces.row(f)}, queries);
     for (Index i = 0; i < queries.rows(); ++i) {
