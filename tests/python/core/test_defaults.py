@@ -24,6 +24,7 @@ OF_THE_CORE = {
     ("JetOptions", "direction_error"),
     ("MeshBudget", "faces"),
     ("MeshBudget", "vertices"),
+    ("RefinementOptions", "within_error"),  # makes the options of an error
     ("RemeshingOptions", "edge_length"),
     ("WnncOptions", "spacings_wide"),
 }
