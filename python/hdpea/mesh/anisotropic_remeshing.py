@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from hdpea import _core
 from hdpea.errors import core_errors_translated
-from hdpea.mesh.extraction import Mesh
+from hdpea.mesh.extraction import Mesh, mask_of
 from hdpea.runtime.progress import PhaseCallback
 from hdpea.surface.surface import Surface
 
@@ -21,6 +21,7 @@ def remesh_anisotropically(
     coordinates: NDArray[np.float64],
     bases: NDArray[np.float64],
     progress: PhaseCallback | None = None,
+    fixed: NDArray[np.bool_] | None = None,
 ) -> Mesh:
     """Return the mesh with its edges flipped, and its vertices moved along the embedded surface.
 
@@ -33,6 +34,8 @@ def remesh_anisotropically(
         (n, d) float64: the embedding of the points of `surface`.
     bases
         (n, 2, d) float64: its tangent planes, as ``hdpea.embedding.tangents`` makes them.
+    fixed
+        (v,) vertices that stay where they are; default: none but those on borders.
     """
     with core_errors_translated():
         made = _core.remesh_anisotropically(
@@ -43,5 +46,6 @@ def remesh_anisotropically(
             bases.reshape(len(bases), -1),
             surface.normals,
             progress,
+            mask_of(fixed),
         )
     return replace(mesh, vertices_in_unit=made.vertices, faces=made.faces, coordinates=made.coordinates)

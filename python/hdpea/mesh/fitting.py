@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from hdpea import _core
 from hdpea.geometry.triangles import mesh_area
 from hdpea.mesh.anisotropic_remeshing import remesh_anisotropically
-from hdpea.mesh.creases import align_to_creases
+from hdpea.mesh.creases import align_to_creases, at_corners
 from hdpea.mesh.extraction import Mesh
 from hdpea.mesh.reaching import reach_points
 from hdpea.mesh.refinement import refine_mesh
@@ -84,6 +84,7 @@ class FitTarget:
         return simplify_mesh(mesh, self.surface, wanted, of_phase(self.progress, "simplification"))
 
     def remeshed(self, mesh: Mesh) -> Mesh:
-        """Return the mesh with its edges and vertices evened out in the embedding."""
+        """Return the mesh with its edges and vertices evened out in the embedding, but for those at corners."""
         progress = of_phase(self.progress, "remeshing")
-        return remesh_anisotropically(mesh, self.surface, self.coordinates, self.bases, progress)
+        corners = at_corners(mesh, self.creases)
+        return remesh_anisotropically(mesh, self.surface, self.coordinates, self.bases, progress, corners)

@@ -13,7 +13,7 @@ from hdpea import _core
 from hdpea.errors import HdpeaError
 from hdpea.geometry.triangles import vertex_normals
 from hdpea.mesh.anisotropic_remeshing import remesh_anisotropically
-from hdpea.mesh.creases import align_to_creases, find_creases
+from hdpea.mesh.creases import align_to_creases, at_corners, find_creases
 from hdpea.mesh.extraction import Mesh
 from hdpea.mesh.refinement import refine_mesh
 from hdpea.mesh.simplification import simplify_mesh
@@ -85,7 +85,7 @@ def _finished(work: Work, tile: int, mesh: Mesh, region: Region, surface: Surfac
         return mesh
     mesh = simplify_mesh(mesh, surface, MeshingOptions(vertices=max(target, 4)), fixed=fixed)
     fixed = np.arange(len(mesh.vertices_in_unit)) < region.fixed
-    mesh = remesh_anisotropically(mesh, surface, embedded.coordinates, embedded.bases)
+    mesh = remesh_anisotropically(mesh, surface, embedded.coordinates, embedded.bases, fixed=at_corners(mesh, creases))
     return refine_mesh(align_to_creases(mesh, creases, fixed), surface, options, fixed=fixed)
 
 

@@ -220,4 +220,5 @@ def _note(stream: PointStream, work: Work) -> str:
     if work.plan.tile_points < TILE_POINTS:
         room = f"{work.plan.tile_points:,} points at most instead of {TILE_POINTS:,}"
         small = f" They have {room}, which changes the mesh a little."
-    return f"Made in {work.plan.tiles} tiles: colours and other attributes are left out{whole}.{small}"
+    tiles = f"{work.plan.tiles} tile{'s' if work.plan.tiles > 1 else ''}"
+    return f"Made in {tiles}: colours and other attributes are left out{whole}.{small}"

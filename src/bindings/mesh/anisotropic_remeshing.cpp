@@ -14,11 +14,11 @@ void register_anisotropic_remeshing(nb::module_& module) {
       "remesh_anisotropically",
       [](const hdpea::PointsRef& vertices, const hdpea::CoordinatesRef& coordinates, const hdpea::FacesRef& faces,
          const hdpea::CoordinatesRef& cloud, const hdpea::CoordinatesRef& bases, const hdpea::PointsRef& normals,
-         const hdpea::Progress& progress) {
+         const hdpea::Progress& progress, const hdpea::MaskRef& fixed) {
         const EmbeddedCloud surface{cloud, bases, normals};
-        return hdpea::remesh_anisotropically(vertices, coordinates, faces, surface, {}, progress);
+        return hdpea::remesh_anisotropically(vertices, coordinates, faces, surface, {}, progress, fixed);
       },
       "vertices"_a, "coordinates"_a, "faces"_a, "cloud"_a, "bases"_a, "normals"_a, "progress"_a = nb::none(),
-      ReleaseGil(),
+      "fixed"_a = hdpea::Mask(), ReleaseGil(),
       "Make the triangles of a mesh as equilateral in its embedding as can be, without leaving the points.");
 }

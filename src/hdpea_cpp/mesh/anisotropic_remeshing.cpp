@@ -53,7 +53,7 @@ enum class Aim { kValence, kDelaunay };
 class Remesher {
  public:
   Remesher(const PointsRef& vertices, const CoordinatesRef& coordinates, const FacesRef& faces,
-           const EmbeddedCloud& cloud, const AnisotropicRemeshingOptions& options)
+           const EmbeddedCloud& cloud, const AnisotropicRemeshingOptions& options, const MaskRef& fixed)
       : cloud_(cloud),
         options_(options),
         mesh_(to_cgal(vertices, faces)),
@@ -63,7 +63,10 @@ class Remesher {
         guard_(mesh_, positions_, cells_, cloud),
         moves_(static_cast<std::size_t>(vertices.rows())) {
     require(static_cast<Index>(mesh_.number_of_vertices()) == vertices.rows(), "a vertex lies on no face");
-    for (const Vertex v : mesh_.vertices()) moves_[v.idx()] = !mesh_.is_isolated(v) && !mesh_.is_border(v);
+    for (const Vertex v : mesh_.vertices()) {
+      const bool stays = fixed.size() > 0 && fixed(v.idx());
+      moves_[v.idx()] = !stays && !mesh_.is_isolated(v) && !mesh_.is_border(v);
+    }
     const Neighbors nearest = nearest_neighbors(cloud.coordinates, coordinates, 1);
     for (Index v = 0; v < vertices.rows(); ++v) {
       coordinates_.row(v) = cloud.projected(coordinates.row(v), nearest(v, 0));
@@ -244,18 +247,19 @@ class Remesher {
 
 EmbeddedMesh remesh_anisotropically(const PointsRef& vertices, const CoordinatesRef& coordinates, const FacesRef& faces,
                                     const EmbeddedCloud& cloud, const AnisotropicRemeshingOptions& options,
-                                    const Progress& progress) {
+                                    const Progress& progress, const MaskRef& fixed) {
   require_embedded(cloud);
   require_rows(coordinates, vertices.rows(), "coordinates");
   require(coordinates.cols() == cloud.coordinates.cols(), "vertices and points must lie in the same dimension");
   require_finite(coordinates, "coordinates", kLargestToTheFourth);
   require_finite(vertices, "vertices", kLargestToTheFourth);
+  if (fixed.size() > 0) require_rows(fixed, vertices.rows(), "fixed");
   require(faces.rows() >= 1, "remeshing needs at least one face");
   require(options.rounds >= 0 && options.step >= 0 && options.pull > 0,
           "rounds and step must be 0 or more, pull positive");
   const MeshCheck check = check_mesh(vertices, faces);
   require(check.manifold() && check.oriented(), "remeshing needs a manifold, oriented mesh");
-  Remesher remesher(vertices, coordinates, faces, cloud, options);
+  Remesher remesher(vertices, coordinates, faces, cloud, options, fixed);
   for (Index round = 0; round < options.rounds; ++round) {
     report(progress, static_cast<double>(round) / static_cast<double>(options.rounds));
     remesher.flip(round < options.valence_rounds ? Aim::kValence : Aim::kDelaunay);

@@ -31,15 +31,16 @@ struct EmbeddedMesh {
 /// What would harm is not done. Neither a move nor a flip may take the points of the vertices concerned farther from
 /// the faces around these than they are, or than twice what points are on average before the first round (once, where
 /// that is much), nor a single point farther than it is, or than 5.5 times that average; nor may it turn a face away
-/// from its points. Vertices on borders do not move. So the topology, the numbers and the order of vertices and faces
-/// stay.
+/// from its points. Vertices on borders and those that are fixed do not move. So the topology, the numbers and the
+/// order of vertices and faces stay.
 ///
 /// @param vertices     (v, 3)
 /// @param coordinates  (v, d) of the vertices in the embedding, near the surface
 /// @param faces        (f, 3) edge- and vertex-manifold, oriented as the normals
+/// @param fixed        (v) vertices that stay where they are, or empty: none
 /// @throws InvalidArgument on a broken contract; Cancelled
 EmbeddedMesh remesh_anisotropically(const PointsRef& vertices, const CoordinatesRef& coordinates, const FacesRef& faces,
                                     const EmbeddedCloud& cloud, const AnisotropicRemeshingOptions& options,
-                                    const Progress& progress = {});
+                                    const Progress& progress = {}, const MaskRef& fixed = Mask());
 
 }  // namespace hdpea

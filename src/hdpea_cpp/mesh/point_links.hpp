@@ -27,8 +27,9 @@ struct NewFace {
 /// it within an error of them, both ways.
 ///
 /// Every point must lie within the error of its face, and every place of a face (tried at about the spacing of the
-/// points) within the error of the disk of one of its nearest points. Where it is more already, it may not grow. Disks
-/// that face away from a face count as farther by the error: lest it folds where the error is wider than the noise.
+/// points) within the error of the disk of one of its 24 nearest points. Where it is more already, it may not grow.
+/// Disks that face away from a face count as farther by the error: lest it folds where the error is wider than the
+/// noise.
 class PointLinks {
  public:
   PointLinks(const EditableMesh& mesh, const DisksRef& disks, double error);

@@ -54,7 +54,7 @@ SimplifiedMesh simplify_mesh(const PointsRef& vertices, const CoordinatesRef& co
 /// Collapses edges as long as the mesh stays within an error of the points, both ways.
 ///
 /// Every point lies within the error of the mesh, and every place of the mesh within the error of the disk of one of
-/// its nearest points that faces as it does: of what lies across its normal, out to its radius. What is farther at
+/// its 24 nearest points that faces as it does: of what lies across its normal, out to its radius. What is farther at
 /// first may not get farther; when no edge can be collapsed any more, faces that still are too far from points are
 /// split at these, and it goes on.
 /// Even so some may be out of reach: a tip without mesh, noise wider than the error.

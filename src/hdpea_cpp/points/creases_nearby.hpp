@@ -38,7 +38,7 @@ class CreasesNearby {
 
  private:
   static constexpr Index kNearest = 16;
-  static constexpr double kStretch = 1.0;
+  static constexpr double kStretch = 1.5;
 
   Eigen::Vector3d offset(Index s, const Eigen::RowVector3d& x) const {
     return x.transpose() - creases_.samples[s].position;

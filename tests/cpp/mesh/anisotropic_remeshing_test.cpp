@@ -41,11 +41,12 @@ struct Case {
 
   EmbeddedMesh remeshed(const Progress& progress = {}) const {
     return remesh_anisotropically(mesh.vertices, mesh.coordinates, mesh.faces, {points, bases, normals}, options,
-                                  progress);
+                                  progress, fixed);
   }
 
   AnisotropicRemeshingOptions options;
   SimplifiedMesh mesh;
+  Mask fixed;
   Coordinates points, bases;
   Points normals;
 };
@@ -141,6 +142,20 @@ TEST(AnisotropicRemeshing, LeavesBordersAlone) {
   }
 }
 
+TEST(AnisotropicRemeshing, LeavesFixedVerticesAlone) {
+  Case torus(shapes::torus(60, 30), 300);
+  torus.fixed = Mask::Zero(torus.mesh.vertices.rows());
+  for (Index v = 0; v < torus.fixed.size(); v += 3) torus.fixed(v) = true;
+  const EmbeddedMesh made = torus.remeshed();
+  Index moved = 0;
+  for (Index v = 0; v < made.vertices.rows(); ++v) {
+    const bool same = made.vertices.row(v) == torus.mesh.vertices.row(v);
+    EXPECT_TRUE(same || !torus.fixed(v));
+    moved += !same;
+  }
+  EXPECT_GT(moved, 100);
+}
+
 TEST(AnisotropicRemeshing, IsTheSameForAnyNumberOfThreads) {
   const Case open(scattered(bumps, 5), 300);
   const EmbeddedMesh all = open.remeshed();
@@ -178,6 +193,9 @@ TEST(AnisotropicRemeshing, RefusesBrokenInput) {
   EXPECT_THROW(broken.remeshed(), InvalidArgument);
   broken = good;
   broken.mesh.faces.row(0) = broken.mesh.faces.row(0).reverse().eval();
+  EXPECT_THROW(broken.remeshed(), InvalidArgument);
+  broken = good;
+  broken.fixed = Mask::Zero(3);
   EXPECT_THROW(broken.remeshed(), InvalidArgument);
   broken = good;
   broken.options.pull = 0;

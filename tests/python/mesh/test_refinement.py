@@ -36,6 +36,14 @@ def test_flat_sides_are_met_exactly(shape: str) -> None:
     assert distances.rms < 1e-3 * distances.spacing
 
 
+@pytest.mark.parametrize(("size", "seed"), [((1, 1, 1), 4), ((1, 1, 0.1), 0)])
+def test_corners_stay_and_creases_with_gaps_are_followed(size: tuple[float, float, float], seed: int) -> None:
+    # A vertex that slid off a corner cut it off by three quarters of a spacing.
+    distances = reconstruct(*clouds.box(4000, size, seed), options()).report.distances
+    assert distances is not None
+    assert distances.max < 1e-3 * distances.spacing
+
+
 @pytest.mark.parametrize("shape", ["torus", "cube", "cylinder"])
 def test_the_faces_stay_as_they_are(shape: str) -> None:
     # Without remeshing between two fits, which goes by where the first one leaves the vertices.
