@@ -50,7 +50,7 @@ class ReachedError:
     points_to_mesh
         Largest distance of a point, after any denoising, from the mesh.
     mesh_to_points
-        Largest distance of a place of the mesh from the disk of one of its 24 nearest points: what lies across the
+        Largest distance of a place of the mesh from the disk of one of its ``NEAREST`` points: what lies across the
         point's normal, as far as its 12th neighbour. Patches of holes do not count.
     """
 

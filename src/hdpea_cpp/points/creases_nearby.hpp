@@ -38,6 +38,7 @@ class CreasesNearby {
 
  private:
   static constexpr Index kNearest = 16;
+  /// In spacings each way: where few points lie on a crease, its samples are two and a half apart.
   static constexpr double kStretch = 1.5;
 
   Eigen::Vector3d offset(Index s, const Eigen::RowVector3d& x) const {
