@@ -177,5 +177,5 @@ def _report(made: _Made, faced: FacedMesh, journal: Journal, progress: ProgressC
     ]
     journal.notes += [*cloud.notes, *found.notes, *prepared.notes, *faced.notes, *size, *compared.missing_part()]
     targets = missed_targets(mesh, facts, options.meshing)
-    journal.missed += [*prepared.missed, *targets, *error.missed(), *compared.agreement.missed()]
+    journal.missed += [*found.missed, *prepared.missed, *targets, *error.missed(), *compared.agreement.missed()]
     return Report.of(journal, facts, compared.distances, compared.agreement, error, compared.along_z)

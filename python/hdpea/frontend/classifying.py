@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from hdpea import _core
 from hdpea.errors import core_errors_translated
 from hdpea.frontend.evenness import NEIGHBORS, Sampling, sampling_of
+from hdpea.frontend.heaps import in_heaps
 from hdpea.frontend.strays import find_strays
 from hdpea.geometry.spatial_order import spatial_order
 
@@ -26,6 +27,8 @@ class Classified:
     ----------
     strays
         (n,) bool: points that lie on no surface.
+    in_heaps
+        (n,) bool: strays that keep company as close as the other points do, and may be surface after all.
     kept
         (n,) bool: points that show the surface as evenly as it was sampled: no strays, and of those that crowd on scan
         lines only as many as are needed.
@@ -36,6 +39,7 @@ class Classified:
     """
 
     strays: NDArray[np.bool_]
+    in_heaps: NDArray[np.bool_]
     kept: NDArray[np.bool_]
     stands_for: NDArray[np.int64]
     spacing: NDArray[np.float64]
@@ -62,7 +66,7 @@ def classify(points: ArrayLike) -> Classified:
     rows = np.ascontiguousarray(points, dtype=np.float64)
     if len(rows) < FEWEST_POINTS:
         nothing = np.zeros(len(rows), dtype=bool)
-        return Classified(nothing, ~nothing, np.arange(len(rows)), np.zeros(len(rows)), 0.0)
+        return Classified(nothing, nothing, ~nothing, np.arange(len(rows)), np.zeros(len(rows)), 0.0)
     # Differences of large coordinates lose digits, so the origin comes to the cloud first.
     centered = rows - np.median(rows, axis=0)
     order = spatial_order(centered)
@@ -71,11 +75,14 @@ def classify(points: ArrayLike) -> Classified:
         nearest = _core.nearest_neighbors(centered, NEIGHBORS)
         sampling = sampling_of(centered, nearest)
         strays = _strays_of(centered, nearest, sampling)
+    heaped = in_heaps(centered, nearest, strays)
     given = np.empty_like(order)
     given[order] = np.arange(len(order))
     kept = sampling.kept & ~strays
     stands_for = order[sampling.stands_for]
-    return Classified(strays[given], kept[given], stands_for[given], sampling.spacing[given], sampling.on_lines)
+    return Classified(
+        strays[given], heaped[given], kept[given], stands_for[given], sampling.spacing[given], sampling.on_lines
+    )
 
 
 def _strays_of(points: NDArray[np.float64], nearest: NDArray[np.int64], sampling: Sampling) -> NDArray[np.bool_]:

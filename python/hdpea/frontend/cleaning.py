@@ -12,6 +12,7 @@ from hdpea.errors import core_errors_translated
 from hdpea.frontend.classes import of_classes
 from hdpea.frontend.classifying import classify
 from hdpea.frontend.crowds import crowd_means
+from hdpea.frontend.heaps import missing_with_heaps
 from hdpea.frontend.precision import precision_note
 from hdpea.geometry.spatial_order import spatial_order
 from hdpea.options.cleaning import CleaningOptions
@@ -34,10 +35,13 @@ class DroppedPoints:
         (m, 3) float64 in world units, in the order given.
     reasons
         (m,) uint8: 1 for a point that lies on no surface, 2 for one that crowds on scan lines.
+    in_heaps
+        (m,) bool: strays that may be surface after all, as of ``Classified``.
     """
 
     points: NDArray[np.float64] = field(default_factory=lambda: np.empty((0, 3)))
     reasons: NDArray[np.uint8] = field(default_factory=lambda: np.empty(0, dtype=np.uint8))
+    in_heaps: NDArray[np.bool_] = field(default_factory=lambda: np.empty(0, dtype=np.bool_))
 
     def counts(self, among: NDArray[np.bool_] | None = None) -> dict[str, int]:
         """Return how many there are for each reason, by name: of all, or `among` some, (m,) bool."""
@@ -63,6 +67,8 @@ class SurfaceCloud:
         The points that were left out, and why.
     notes
         Sentences for the user about it.
+    missed
+        Those of them for which no mesh of it is what was wanted.
     """
 
     cloud: PointCloud
@@ -71,6 +77,7 @@ class SurfaceCloud:
     spacing: float | None = None
     dropped: DroppedPoints = field(default_factory=DroppedPoints)
     notes: tuple[str, ...] = ()
+    missed: tuple[str, ...] = ()
 
     def in_order_of_space(self) -> PointCloud:
         """Return the points that are left so that near ones stand near each other: what follows is faster.
@@ -112,9 +119,10 @@ def surface_cloud(cloud: PointCloud, options: CleaningOptions | None = None) -> 
     if (reasons == ON_LINES).any():
         on_surface = cloud.at(np.flatnonzero(~found.strays))
         left = replace(left, points=crowd_means(cloud.points, found.kept, found.stands_for))
-    dropped = DroppedPoints(cloud.points[gone], reasons)
+    dropped = DroppedPoints(cloud.points[gone], reasons, found.in_heaps[gone])
     notes = (*notes, *dropped_notes(dropped.counts(), len(cloud.points)))
-    return SurfaceCloud(left, on_surface, found.shown, spacing, dropped, notes)
+    missed = missing_with_heaps(int(dropped.in_heaps.sum()), len(cloud.points))
+    return SurfaceCloud(left, on_surface, found.shown, spacing, dropped, notes, missed)
 
 
 def dropped_notes(counts: dict[str, int], of: int) -> list[str]:

@@ -33,6 +33,7 @@ def prepare(work: Work, tile: int) -> None:
     surface, given = prepared.surface, prepared.oriented.surface
     points, points_given = (plan.frame.to_unit(each.frame.to_world(each.points_in_unit)) for each in (surface, given))
     own = plan.inside(tile, points_given)
+    own_dropped = plan.inside(tile, plan.frame.to_unit(found.dropped.points))
     area = areas_shown(points, surface.neighbors)
     scale = surface.frame.diagonal / plan.frame.diagonal
     facts = {
@@ -47,7 +48,8 @@ def prepare(work: Work, tile: int) -> None:
         "noise": prepared.oriented.roughness.noise,
         "missed_by_planes": _missed_by_planes(prepared, own, scale) if any_number(options) else [],
         "estimated": round(prepared.oriented.estimated * float(own.mean())),
-        "dropped": found.dropped.counts(plan.inside(tile, plan.frame.to_unit(found.dropped.points))),
+        "dropped": found.dropped.counts(own_dropped),
+        "in_heaps": int(found.dropped.in_heaps[own_dropped].sum()),
         "known": len(points),
         "choices": [asdict(choice) for choice in prepared.choices],
         "missed": list(prepared.missed),

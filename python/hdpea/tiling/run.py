@@ -14,6 +14,7 @@ from pathlib import Path
 from hdpea.errors import UsageError
 from hdpea.frontend.classes import stream_of_classes, taken_note
 from hdpea.frontend.cleaning import dropped_notes
+from hdpea.frontend.heaps import missing_with_heaps
 from hdpea.mesh.extraction import Mesh
 from hdpea.options import Options
 from hdpea.reading.streaming import PointStream
@@ -208,6 +209,7 @@ def _result(stream: PointStream, work: Work, journal: Journal) -> Reconstruction
     if estimated := journal.counts["normals_estimated"]:
         journal.notes.append(f"Normals of {estimated:,} points were estimated.")
     journal.notes += facts["notes"]
+    journal.missed += missing_with_heaps(sum(each["in_heaps"] for each in tiles), work.plan.points)
     journal.missed += dict.fromkeys(why for each in tiles for why in each["missed"])
     journal.missed += [*missed_targets(mesh, found, work.options.meshing), *agreement.missed()]
     report = Report.of(journal, found, distances, agreement, error, along_z)

@@ -8,8 +8,10 @@ import pytest
 from helpers.clouds import sphere_points
 from numpy.typing import NDArray
 
+from hdpea import _core
 from hdpea.frontend import classify
 from hdpea.frontend.cleaning import STRAY, surface_cloud
+from hdpea.frontend.heaps import in_heaps, missing_with_heaps
 from hdpea.options import CleaningOptions
 from hdpea.reading.cloud import PointCloud
 
@@ -43,6 +45,18 @@ def test_an_even_cloud_is_kept_as_it_is() -> None:
     assert found.strays.mean() <= 1e-3
     assert found.on_lines == 0
     assert np.array_equal(found.kept, ~found.strays)
+
+
+def test_strays_that_keep_close_company_are_told_from_others() -> None:
+    sphere, strays = with_strays(200)
+    points = np.vstack([sphere, sphere[:1000] * [1, 1, 0.01] + [0, 0, 3], strays + np.array([0, 6, 0])])
+    dropped = np.arange(len(points)) >= len(sphere)
+    heaped = in_heaps(points, _core.nearest_neighbors(points, 8), dropped)
+    assert heaped[4000:5000].mean() > 0.5
+    assert not heaped[:4000].any()
+    assert not heaped[5000:].any()
+    assert missing_with_heaps(int(heaped.sum()), len(points))
+    assert not missing_with_heaps(int(heaped.sum()), 100 * len(points))
 
 
 @pytest.mark.parametrize("deviation", [0.3, 1.0, 1.5])

@@ -145,13 +145,13 @@ def box_on_a_table(count: int) -> Array:
     return points + random.normal(0, 0.2 * spacing, points.shape)
 
 
-def cables_and_a_pole(count: int) -> Array:
-    """Return three sagging cables 2 cm thick and 20 m long, and a pole of 15 cm, with half as many points again."""
-    random, parts = np.random.default_rng(0), []
+def cables_and_a_pole(count: int, radius: float = 0.01, seed: int = 0) -> Array:
+    """Return three sagging cables 20 m long, and a pole of 15 cm, with half as many points again."""
+    random, parts = np.random.default_rng(seed), []
     for y in (0, 0.5, 1):
         x, around = 20 * random.random(count), TAU * random.random(count)
         height = 0.02 * (x - 10) ** 2 + 5
-        parts.append(np.column_stack([x, y + 0.01 * np.cos(around), height + 0.01 * np.sin(around)]))
+        parts.append(np.column_stack([x, y + radius * np.cos(around), height + radius * np.sin(around)]))
     around, height = random.random((2, count * 3 // 2)) * [[TAU], [7]]
     parts.append(np.column_stack([10 + 0.075 * np.cos(around), -1 + 0.075 * np.sin(around), height]))
     return np.vstack(parts)
