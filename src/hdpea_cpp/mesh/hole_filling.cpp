@@ -29,6 +29,8 @@ constexpr double kGoodPart = 0.25;
 // Where a Delaunay triangulation holds no patch, CGAL tries all triangulations, in time that grows with the cube of the
 // edges: a second for so many, hours for a ragged border of thousands.
 constexpr std::size_t kEdgesForAllPatches = 500;
+// Of so few all are tried at once: one in fifty Delaunay patches of 16 edges has a face that is turned over.
+constexpr std::size_t kEdgesWithoutDelaunay = 32;
 // A patch folds back where it turns by more than 135 degrees: the missing half of a thin pin turns by 120.
 constexpr double kFoldedCosine = -0.7;
 
@@ -141,7 +143,8 @@ class HoleFiller {
     std::vector<PatchFace> patch;
     CGAL::Polygon_mesh_processing::triangulate_hole_polyline(
         polyline, beyond, std::back_inserter(patch),
-        CGAL::parameters::do_not_use_cubic_algorithm(loop.size() > kEdgesForAllPatches));
+        CGAL::parameters::use_delaunay_triangulation(loop.size() > kEdgesWithoutDelaunay)
+            .do_not_use_cubic_algorithm(loop.size() > kEdgesForAllPatches));
     orient(patch);
     return patch;
   }

@@ -6,7 +6,9 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <vector>
 
+#include "hdpea_cpp/base/area_vector.hpp"
 #include "hdpea_cpp/base/errors.hpp"
 #include "hdpea_cpp/mesh/mesh_check.hpp"
 #include "helpers/shapes.hpp"
@@ -108,6 +110,33 @@ TEST(HoleFilling, TheOpenSideOfAPinIsAHoleAndThatOfAFoldIsABorder) {
   EXPECT_TRUE(sound(pin));
   EXPECT_TRUE(check_mesh(pin.vertices, pin.faces).closed());
   EXPECT_EQ(filled_of(0.3).filled, 0);  // at 17
+}
+
+/// A ring of faces around a hole whose border is so far from the middle, and so high.
+shapes::Mesh ring_around(const std::vector<double>& radii, const std::vector<double>& heights) {
+  const Index edges = static_cast<Index>(radii.size());
+  shapes::Mesh mesh{Points(2 * edges, 3), Faces(2 * edges, 3)};
+  for (Index i = 0; i < edges; ++i) {
+    const double angle = 2 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(edges);
+    const Index next = (i + 1) % edges;
+    mesh.vertices.row(i) << radii[i] * std::cos(angle), radii[i] * std::sin(angle), heights[i];
+    mesh.vertices.row(edges + i) << 2 * std::cos(angle), 2 * std::sin(angle), 0;
+    mesh.faces.row(2 * i) << i, edges + i, edges + next;
+    mesh.faces.row(2 * i + 1) << i, edges + next, next;
+  }
+  return mesh;
+}
+
+TEST(HoleFilling, NoFaceOfASmallPatchIsTurnedOver) {
+  // Of this hole the Delaunay triangulation holds only patches with a face that looks down.
+  const shapes::Mesh ring =
+      ring_around({0.4, 0.2, 0.9, 0.7, 1.0, 0.8, 0.4, 0.2, 0.2}, {0, 0, -0.1, -0.1, 0, 0, -0.1, 0.1, 0});
+  const FilledMesh filled = fill_holes(ring.vertices, ring.faces, 3);
+  ASSERT_EQ(filled.faces.rows(), ring.faces.rows() + 7);
+  for (Index f = 0; f < filled.faces.rows(); ++f) {
+    const auto corner = [&](int i) { return filled.vertices.row(filled.faces(f, i)); };
+    EXPECT_GT(area_vector(corner(0), corner(1), corner(2)).z(), 0);
+  }
 }
 
 TEST(HoleFilling, ZeroFillsNothing) {
