@@ -3,14 +3,16 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 from numpy.typing import NDArray
 
 from hdpea.embedding import Embedder
 from hdpea.embedding.device import device_choices
+from hdpea.errors import CannotReconstruct
 from hdpea.frontend.cleaning import SurfaceCloud, surface_cloud
+from hdpea.frontend.vantage import with_sensor_found
 from hdpea.geometry.texture import Texture
 from hdpea.mesh.attributes import vertex_attributes
 from hdpea.mesh.budget import particles_wanted
@@ -98,7 +100,7 @@ def _make(
     """Clean, orient, embed and mesh a cloud."""
     with clock.stage("cleaning"):
         tell(progress, "cleaning", 0)
-        found = surface_cloud(cloud, options.cleaning)
+        found = surface_cloud(with_sensor_found(cloud), options.cleaning)
         # Nothing that is returned of the mesh is in the order of the points.
         cloud = found.in_order_of_space()
         tell(progress, "cleaning", 1)
@@ -111,6 +113,8 @@ def _make(
     _, count_choices = particles_wanted(budgeted, len(cloud.points), shown)
     surface, parts = prepared.surface, prepared.oriented.parts
     mesh, mesh_choices = mesh_surface(surface, budgeted, shown, parts, progress, clock, embedder)
+    if len(mesh.faces) == 0:
+        raise CannotReconstruct("No face is left of so few points.", "See that they lie on a surface.")
     wanted = budgeted.vertices_of(shown.count) if options.meshing.error is None else len(mesh.vertices_in_unit)
     own = () if embedder is None else (Choice("embedding", "given", "", "an embedder was passed"),)
     choices = (*noise_choices, *count_choices, *own, *mesh_choices, *mesh.choices)
@@ -118,8 +122,13 @@ def _make(
 
 
 def _facing_out(mesh: Mesh, prepared: Preparation) -> FacedMesh:
-    """Turn what faces inwards, unless the file says which side is out."""
-    return facing_out(mesh) if prepared.oriented.computed_sides else FacedMesh(mesh)
+    """Turn closed pieces that face inwards, unless it is known from where they were seen."""
+    sides = prepared.oriented
+    if not sides.computed_sides and not sides.from_above:
+        return FacedMesh(mesh)
+    faced = facing_out(mesh)
+    # Open ones face up, which is no guess; closed ones may have none but vertical sides.
+    return replace(faced, notes=()) if sides.from_above else faced
 
 
 def _carried(made: _Made, clock: StageClock, progress: ProgressCallback | None) -> dict[str, NDArray[Any]]:

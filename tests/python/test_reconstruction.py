@@ -183,6 +183,11 @@ def test_more_vertices_than_points_are_refused(budget: MeshingOptions) -> None:
         reconstruct(*clouds.sphere(300), Options(meshing=budget))
 
 
+def six_small_balls() -> clouds.Array:
+    """Return balls of 13 points, each of which gets too few faces to stay."""
+    return np.vstack([clouds.sphere_points(13, i) * (0.3 + 0.15 * i) + [1.1 * i, 0, 0] for i in range(6)])
+
+
 @pytest.mark.parametrize(
     ("points", "error", "reason"),
     [
@@ -191,6 +196,7 @@ def test_more_vertices_than_points_are_refused(budget: MeshingOptions) -> None:
         (np.ones((50, 3)), CannotReconstruct, "equal"),
         (np.arange(50.0)[:, None] * [1.0, 2.0, 3.0], CannotReconstruct, "on a line"),
         (clouds.sphere(15)[0], CannotReconstruct, "too few"),
+        (six_small_balls(), CannotReconstruct, "No face is left"),
         (np.zeros((50, 2)), UsageError, "shape"),
     ],
 )

@@ -23,6 +23,7 @@ from hdpea.embedding.device import device_choices
 from hdpea.errors import core_errors_translated
 from hdpea.frontend.cleaning import surface_cloud
 from hdpea.frontend.roughness import roughness_of
+from hdpea.frontend.vantage import with_sensor_found
 from hdpea.geometry.metric import Metric
 from hdpea.geometry.tensors import metric_tensors
 from hdpea.geometry.thinning import thinned
@@ -85,7 +86,7 @@ def estimate_curvature(
     """
     options = options or CurvatureOptions()
     with limited_threads(options.threads), core_errors_translated():
-        found = surface_cloud(cleaned_cloud(points, normals, sensors), options.cleaning)
+        found = surface_cloud(with_sensor_found(cleaned_cloud(points, normals, sensors)), options.cleaning)
         vertices, kept = _resolution(len(found.cloud.points), options.estimation.vertices)
         thin = found.cloud.at(kept)
         fitting, choices = _fitting_of_normals(thin, options)

@@ -19,6 +19,7 @@ from hdpea.embedding.embedded import Embedded
 from hdpea.embedding.learned import embed_learned
 from hdpea.errors import core_errors_translated
 from hdpea.frontend.cleaning import surface_cloud
+from hdpea.frontend.vantage import with_sensor_found
 from hdpea.geometry.unit_frame import UnitFrame
 from hdpea.options import EmbeddingOptions, Options
 from hdpea.options.choice import Choice
@@ -113,7 +114,7 @@ def embed_points(
     """
     options = options or Options()
     with limited_threads(options.threads):
-        cloud = cleaned_cloud(points, normals, sensors)
+        cloud = with_sensor_found(cleaned_cloud(points, normals, sensors))
         found = surface_cloud(cloud, options.cleaning)
         # The order that `reconstruct` embeds in, so that psi is the same: rounding may lead to another.
         cloud = found.in_order_of_space()

@@ -10,6 +10,7 @@ import numpy as np
 from hdpea import _core
 from hdpea.errors import core_errors_translated
 from hdpea.frontend.cleaning import surface_cloud
+from hdpea.frontend.vantage import with_sensor_found
 from hdpea.geometry.unit_frame import UnitFrame, diagonal_of
 from hdpea.options import MeshingOptions
 from hdpea.reading import PointCloud
@@ -57,7 +58,7 @@ def inspect(cloud: PointCloud) -> CloudFacts:
     """Look at a cleaned cloud."""
     low, high = cloud.points.min(axis=0), cloud.points.max(axis=0)
     diagonal = diagonal_of(low, high)
-    found = surface_cloud(cloud)
+    found = surface_cloud(with_sensor_found(cloud))
     vertices = MeshingOptions().vertices_of(found.points_shown)
     left = len(found.cloud.points)
     spacing, fit, signs = _compare_neighbors(cloud) if 0 < diagonal < np.inf else (None, None, None)
@@ -79,7 +80,7 @@ def inspect(cloud: PointCloud) -> CloudFacts:
         estimated_seconds=seconds_of_run(left, vertices),
         estimated_peak_bytes=PEAK_BYTES.of(left, vertices),
         crs=cloud.crs,
-        notes=[*cloud.notes, *found.notes],
+        notes=[*found.cloud.notes, *found.notes],
     )
 
 

@@ -54,6 +54,8 @@ class OrientedSurface:
         Whether a single sensor saw all points, as far as is known.
     doubled
         Whether strips overlap that do not meet, as far as the view tells.
+    from_above
+        Whether that it is a height field, which the points alone say, decided the signs.
     parts
         Rows of each part that was sampled far more densely than the scene it lies in.
     """
@@ -67,6 +69,7 @@ class OrientedSurface:
     choices: tuple[Choice, ...] = ()
     from_one_place: bool = False
     doubled: bool = False
+    from_above: bool = False
     parts: tuple[NDArray[np.int64], ...] = ()
 
     @property
@@ -140,6 +143,7 @@ def oriented_surface(
         choices=choices,
         from_one_place=orientation.from_one_place,
         doubled=orientation.doubled,
+        from_above=orientation.from_above,
         parts=parts,
     )
 

@@ -88,7 +88,7 @@ def _by_best_method(
         return _each_by_itself(points, directions, evidence, progress, parts)
     if view is not None:
         normals = by_view(points, directions, evidence, view)
-        return Orientation(normals, "viewpoint", view.why, view.from_one_place, view.doubled)
+        return Orientation(normals, "viewpoint", view.why, view.from_one_place, view.doubled, view.from_above)
     return by_agreement(points, directions, evidence, progress)
 
 

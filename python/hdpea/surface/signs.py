@@ -72,6 +72,8 @@ class Orientation:
         Whether a single sensor saw all points, as far as is known.
     doubled
         Whether strips overlap that do not meet, as far as the view tells.
+    from_above
+        Whether that the surface is a height field, which the points alone say, decided the signs.
     """
 
     normals: Vectors
@@ -79,6 +81,7 @@ class Orientation:
     why: str = ""
     from_one_place: bool = False
     doubled: bool = False
+    from_above: bool = False
 
 
 def turned(directions: Vectors, towards: Vectors) -> Vectors:

@@ -79,19 +79,22 @@ class View:
         Whether a single sensor saw all of it, so that what that cannot see is missing.
     doubled
         Whether strips overlap in it that do not meet: layers near each other that were both seen from there.
+    from_above
+        Whether it is a height field.
     """
 
     towards: Vectors
     why: str
     from_one_place: bool
     doubled: bool = False
+    from_above: bool = False
 
     @classmethod
     def of_sensors(cls, points: Vectors, sensors: Vectors) -> View:
-        """Return that of points (n, 3) from the sensors (n, 3) that the file names, one for each."""
+        """Return that of points (n, 3) from their sensors (n, 3), one for each."""
         return cls(
             towards_of(points, sensors),
-            "the file says where the sensors were",
+            "it is known where the sensors were",
             bool(np.ptp(sensors, axis=0).max() == 0),
         )
 
@@ -137,7 +140,7 @@ def _from_above(points: Vectors, directions: Vectors, roughness: Roughness, _ori
         return None
     doubled = near > MOST_HIDDEN
     besides = ", but for layers of strips that overlap" if doubled else ""
-    return View(up, f"a height field, seen from above: no point lies below another{besides}", False, doubled)
+    return View(up, f"a height field, seen from above: no point lies below another{besides}", False, doubled, True)
 
 
 def _layered(

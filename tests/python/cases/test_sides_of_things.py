@@ -6,7 +6,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from helpers.clouds import sphere_points
-from helpers.raw_clouds import ball_on_a_floor, box_on_a_table, land_with_a_cliff
+from helpers.raw_clouds import ball_on_a_floor, box_on_a_table, land_with_a_cliff, lidar_frame, table_from_above
 from helpers.raw_meshes import BALL, middles, says_it_is_a_guess, share_against
 from helpers.reconstructions import area_vectors, volume
 
@@ -54,3 +54,19 @@ def test_a_fruit_in_a_bowl_faces_out() -> None:
     of_fruit = np.linalg.norm(places, axis=1) < 0.4
     assert of_fruit.sum() > 100
     assert ((area_vectors(made) * places).sum(axis=1)[of_fruit] > 0).all()
+
+
+@pytest.mark.parametrize("rings", [32, 64])
+def test_what_a_lidar_sees_around_it_faces_it(rings: int) -> None:
+    made = reconstruct(lidar_frame(rings))
+    assert share_against(made, -middles(made)) < 0.03
+    assert not says_it_is_a_guess(made)
+
+
+def test_closed_legs_of_a_table_seen_from_above_face_out() -> None:
+    made = reconstruct(table_from_above(12_000))
+    places = middles(made)
+    legs = places[:, 2] < 0.6
+    outward = np.where(legs[:, None], (places - np.sign(places) * [0.5, 0.25, 0]) * [1, 1, 0], UP)
+    assert legs.sum() > 100
+    assert share_against(made, outward) < 0.03

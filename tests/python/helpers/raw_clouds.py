@@ -157,6 +157,35 @@ def cables_and_a_pole(count: int, radius: float = 0.01, seed: int = 0) -> Array:
     return np.vstack(parts)
 
 
+def lidar_frame(rings: int, turns: int = 500) -> Array:
+    """Return what a lidar that turns in the origin, 1.7 above the ground, sees of it, a car and a wall."""
+    up, around = np.meshgrid(np.radians(np.linspace(-25, 8, rings)), np.arange(turns) * TAU / turns, indexing="ij")
+    rays = np.stack([np.cos(up) * np.cos(around), np.cos(up) * np.sin(around), np.sin(up)], axis=-1).reshape(-1, 3)
+    boxes = ([-80, -80, -3], [80, 80, -1.7]), ([5, -1, -1.7], [9, 1, -0.2]), ([-20, 10, -1.7], [20, 11, 4])
+    reached = np.min([_distance_to(np.array(low), np.array(high), rays) for low, high in boxes], axis=0)
+    return np.asarray(rays[reached < 60] * reached[reached < 60, None])
+
+
+def _distance_to(low: Array, high: Array, rays: Array) -> Array:
+    """Return how far along rays (n, 3) from the origin a box is, (n,): infinite where they miss it."""
+    with np.errstate(divide="ignore", invalid="ignore"):
+        sides = np.sort([low / rays, high / rays], axis=0)
+    near, far = sides[0].max(axis=1), sides[1].min(axis=1)
+    return np.where((near <= far) & (near > 0), near, np.inf)
+
+
+def table_from_above(count: int) -> Array:
+    """Return a table without its underside: a top and four legs, which are seen from the side."""
+    random = np.random.default_rng(0)
+    places = random.uniform([-0.6, -0.35], [0.6, 0.35], (count * 3 // 4, 2))
+    top = np.column_stack([places, np.full(len(places), 0.7)])
+    legs = []
+    for corner in np.array([[-0.5, -0.25], [0.5, -0.25], [-0.5, 0.25], [0.5, 0.25]]):
+        around, height = random.random((2, count // 16)) * [[TAU], [0.64]]
+        legs.append(np.column_stack([corner + 0.02 * np.stack([np.cos(around), np.sin(around)], axis=1), height]))
+    return np.vstack([top, *legs])
+
+
 def solid_ball(count: int) -> Array:
     """Return about half as many points that fill the unit ball."""
     points = np.random.default_rng(0).uniform(-1, 1, (count, 3))
