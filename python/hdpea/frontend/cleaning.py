@@ -68,7 +68,7 @@ class SurfaceCloud:
     notes
         Sentences for the user about it.
     missed
-        Those of them for which no mesh of it is what was wanted.
+        Sentences on what is missing from it, so that no mesh of it is what was wanted.
     """
 
     cloud: PointCloud

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from hdpea import _core
 from hdpea.errors import core_errors_translated
+from hdpea.geometry.directions import fibonacci_spiral
 from hdpea.geometry.thinning import rows_along
 from hdpea.reading.cloud import PointCloud
 
@@ -77,10 +78,7 @@ def _unevenness(points: NDArray[np.float64]) -> float:
 def _blind_angle(points: NDArray[np.float64]) -> float:
     """Return the largest angle in degrees between a direction and that from the origin to any of points (n, 3)."""
     seen = np.ascontiguousarray(points / np.linalg.norm(points, axis=1, keepdims=True))
-    heights = 1 - (2 * np.arange(DIRECTIONS) + 1) / DIRECTIONS
-    turns = np.pi * (1 + 5**0.5) * np.arange(DIRECTIONS)  # a Fibonacci lattice, even on the sphere
-    across = np.sqrt(1 - heights**2)
-    directions = np.stack([across * np.cos(turns), across * np.sin(turns), heights], axis=1)
+    directions = fibonacci_spiral(DIRECTIONS)
     nearest = _core.nearest_neighbors(seen, directions, 1)[:, 0]
     cosines = np.einsum("nc,nc->n", directions, seen[nearest])
     return float(np.degrees(np.arccos(cosines.min().clip(-1, 1))))

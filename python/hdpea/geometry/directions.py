@@ -1,0 +1,23 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Directions: points of the unit sphere."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+TAU = 2 * np.pi
+GOLDEN_ANGLE = TAU * (2 - (1 + 5**0.5) / 2)
+
+
+def on_sphere(azimuth: NDArray[np.float64], height: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return the points (n, 3) of the unit sphere of these azimuths (n,), in radians, and heights (n,), -1 to 1."""
+    radius = np.sqrt(1 - height**2)
+    return np.stack([radius * np.cos(azimuth), radius * np.sin(azimuth), height], axis=1)
+
+
+def fibonacci_spiral(count: int, coverage: float = 1.0) -> NDArray[np.float64]:
+    """Return evenly spread points (count, 3) of the unit sphere, or of its cap around z with that share of its area."""
+    each = np.arange(count)
+    height: NDArray[np.float64] = 1 - 2 * coverage * (each + 0.5) / count
+    return on_sphere(GOLDEN_ANGLE * each.astype(np.float64), height)
