@@ -45,16 +45,22 @@ def with_sensor_found(cloud: PointCloud) -> PointCloud:
     A scanner's rays are as far apart at all distances, but its points are not: the same surface is sampled four times
     as densely at half the distance. Signs of normals need it, as nothing is enclosed by what surrounds a scanner.
     """
-    if cloud.sensors() is not None or (share := _uneven_as_seen(cloud.points)) is None:
+    if cloud.sensors() is not None:
         return cloud
-    if share > MOST_UNEVEN_AS_SEEN or _blind_angle(cloud.points) < LEAST_BLIND:
+    # Some scanners write a ray without a return as a point in themselves.
+    points = cloud.points[cloud.points.any(axis=1)]
+    if (share := _uneven_as_seen(points)) is None:
+        return cloud
+    if share > MOST_UNEVEN_AS_SEEN or _blind_angle(points) < LEAST_BLIND:
         return cloud if cloud.normals is not None else replace(cloud, notes=(*cloud.notes, LIKELY))
     sensors = {"sensor": np.zeros_like(cloud.points)}
     return replace(cloud, attributes={**cloud.attributes, **sensors}, notes=(*cloud.notes, TAKEN))
 
 
 def _uneven_as_seen(points: NDArray[np.float64]) -> float | None:
-    """Return which share of their unevenness distinct points (n, 3) have as seen from the origin, if it is likely."""
+    """Return which share of their unevenness distinct points (n, 3) have as seen from the origin, if it is likely.
+
+    None of them may lie there."""
     # What is too small or too large for squares is no scan in metres.
     with np.errstate(over="ignore", under="ignore"):
         distances = np.linalg.norm(points, axis=1)

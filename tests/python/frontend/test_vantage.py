@@ -45,6 +45,13 @@ def test_nor_do_noise_and_gaps_hide_it() -> None:
     assert with_sensor_found(PointCloud(points * random.normal(1, 1e-3, (len(points), 1)))).notes == (TAKEN,)
 
 
+def test_rays_without_a_return_do_not_hide_it() -> None:
+    points = np.vstack([lidar_frame(64), np.zeros((1, 3))])
+    found = with_sensor_found(PointCloud(points))
+    assert found.notes == (TAKEN,)
+    assert np.array_equal(found.sensors(), np.zeros_like(points))
+
+
 @pytest.mark.parametrize(
     "points",
     [
