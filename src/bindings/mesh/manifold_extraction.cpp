@@ -27,6 +27,7 @@ void register_manifold_extraction(nb::module_& module) {
       .def_ro("refused_loose", &ExtractionCounts::refused_loose)
       .def_ro("dropped_components", &ExtractionCounts::dropped_components)
       .def_ro("dropped_faces", &ExtractionCounts::dropped_faces)
+      .def_ro("turned_patches", &ExtractionCounts::turned_patches)
       .def_ro("split_vertices", &ExtractionCounts::split_vertices);
   nb::class_<ExtractedMesh>(module, "ExtractedMesh", "A manifold mesh and how it came about.")
       .def_ro("faces", &ExtractedMesh::faces, "(f, 3) int64")

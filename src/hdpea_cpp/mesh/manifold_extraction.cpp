@@ -12,6 +12,7 @@
 #include "hdpea_cpp/base/checks.hpp"
 #include "hdpea_cpp/base/errors.hpp"
 #include "hdpea_cpp/mesh/candidate_shape.hpp"
+#include "hdpea_cpp/mesh/contrary_patches.hpp"
 #include "hdpea_cpp/mesh/incremental_manifold.hpp"
 #include "hdpea_cpp/mesh/pinched_vertices.hpp"
 
@@ -201,6 +202,7 @@ ExtractedMesh Extractor::finish() {
   for (Index f = 0; f < face_count; ++f) largest = std::max(largest, mesh_.piece_size(f));
   const Index least = std::min(options_.min_component_faces, largest);
   std::vector<Triangle> kept;
+  std::vector<bool> against;
   for (Index f = 0; f < face_count; ++f) {
     const auto [representative, flipped] = mesh_.piece_of(f);
     if (mesh_.piece_size(f) < least) {
@@ -209,9 +211,12 @@ ExtractedMesh Extractor::finish() {
       continue;
     }
     Triangle triangle = mesh_.triangles()[f];
-    if (flipped != (outward_[representative] < 0)) std::swap(triangle[1], triangle[2]);
+    const bool turned = flipped != (outward_[representative] < 0);
+    against.push_back((shape_.outwardness(triangle) < 0) != turned);
+    if (turned) std::swap(triangle[1], triangle[2]);
     kept.push_back(triangle);
   }
+  counts_.turned_patches = turn_hanging_patches(kept, against);
   // They were inserted in the order of their radii, which rounding (a cloud in other units) may change.
   std::sort(kept.begin(), kept.end());
   ExtractedMesh extracted;

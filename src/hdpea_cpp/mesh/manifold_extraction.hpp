@@ -29,6 +29,7 @@ struct ExtractionCounts {
   Index refused_sides = 0;          ///< joins two large pieces of which one would face against its points
   Index refused_loose = 0;          ///< T12 that never shared enough edges with the mesh
   Index dropped_components = 0, dropped_faces = 0;
+  Index turned_patches = 0;  ///< hung on the rest by a neck, against their points
   Index split_vertices = 0;  ///< pinched vertices given a copy of their own for each fan
 };
 
@@ -44,8 +45,8 @@ struct ExtractedMesh {
 /// that face opposite ways come after the others: where two things touch, they join these. A T12 triangle must
 /// share two edges with the mesh, or one and bring a vertex that has no face yet; sweeps repeat until none
 /// is inserted, and then once more with those that share one edge and reach a vertex of another piece, one of the two
-/// being small: on parts so thin that few cells agree, they join the fragments. Then small components are dropped and
-/// pinched vertices split. Borders stay open.
+/// being small: on parts so thin that few cells agree, they join the fragments. Then small components are dropped,
+/// patches that hang on the rest the wrong way round turned, and pinched vertices split. Borders stay open.
 ///
 /// @param coordinates  (n, d) seeds; their first three columns are positions in R^3
 /// @param normals      (n, 3) unit; their signs decide which side of a whole component is out, and that no

@@ -118,12 +118,12 @@ TEST(ManifoldExtraction, NoBridgeJoinsAPieceToItself) {
   EXPECT_EQ(mesh.faces.rows(), 3);
 }
 
-/// What is made of a flat strip whose second half faces down.
-ExtractedMesh mesh_of_turned_strip(Index max_bridged_faces) {
+/// What is made of a flat strip of which so many points at one end face down.
+ExtractedMesh mesh_of_turned_strip(Index max_bridged_faces, Index turned = 20) {
   const Index count = 40;
   Points points(count, 3), normals = Eigen::RowVector3d::UnitZ().replicate(count, 1);
   for (Index i = 0; i < count; ++i) points.row(i) << 0.5 * static_cast<double>(i), i % 2 == 0 ? 0 : 0.9, 0;
-  normals.bottomRows(count / 2) *= -1;
+  normals.bottomRows(turned) *= -1;
   Candidates candidates{Faces(count - 2, 3), Eigen::VectorXi::Constant(count - 2, 3), {}};
   for (Index t = 0; t < count - 2; ++t) candidates.triangles.row(t) << t, t + 1, t + 2;
   ExtractionOptions options;
@@ -139,9 +139,17 @@ TEST(ManifoldExtraction, LargePiecesThatFaceOppositeWaysAreNotJoined) {
 }
 
 TEST(ManifoldExtraction, SmallPiecesAreJoinedWhateverTheirNormalsSay) {
-  const ExtractedMesh joined = mesh_of_turned_strip(20);
+  const ExtractedMesh joined = mesh_of_turned_strip(20, 6);
   EXPECT_EQ(joined.counts.refused_sides, 0);
+  EXPECT_EQ(joined.counts.turned_patches, 0);
   EXPECT_EQ(joined.faces.rows(), 38);
+}
+
+TEST(ManifoldExtraction, ALargerPartThatHangsByOneEdgeIsTurned) {
+  const ExtractedMesh cut = mesh_of_turned_strip(20);
+  EXPECT_EQ(cut.counts.refused_sides, 0);
+  EXPECT_EQ(cut.counts.turned_patches, 1);
+  EXPECT_EQ(cut.faces.rows(), 37);
 }
 
 TEST(ManifoldExtraction, AStrayPointWithAWideDiskDrawsNoSpike) {
