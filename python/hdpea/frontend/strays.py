@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hdpea import _core
+from hdpea.frontend.scattered import scattered
 from hdpea.frontend.standing import Standing
 from hdpea.geometry.thinning import rows_along
 from hdpea.runtime.blocks import in_blocks
@@ -91,6 +92,8 @@ def find_strays(points: NDArray[np.float64], nearest: NDArray[np.int64], on_line
         (n, 24) or more: the nearest other points of each.
     """
     standing = Standing(points, nearest[:, : max(REACHES)])
+    while not on_lines and len(found := scattered(standing)):
+        standing.drop(found)
     rows, planar = standing.rows, not on_lines and _show_planes(standing)
     farther = FARTHER_FROM_LINES if on_lines else FARTHER
     for _ in range(ROUNDS):
