@@ -8,9 +8,6 @@
 namespace hdpea {
 namespace {
 
-/// Of fewer faces nothing is left once the neck is cut.
-constexpr std::size_t kLeastFaces = 6;
-
 using Adjacency = std::vector<std::array<Index, 3>>;
 
 /// The faces beside each, over the edge that starts at each corner; -1 at the border.
@@ -29,7 +26,7 @@ Adjacency faces_beside(const std::vector<Triangle>& faces) {
 struct Patch {
   std::vector<std::size_t> faces;
   std::vector<std::size_t> neck;  ///< its faces beside the rest, once for each edge
-  bool hangs() const { return faces.size() >= kLeastFaces && 4 * neck.size() * neck.size() <= faces.size(); }
+  bool hangs() const { return 4 * neck.size() * neck.size() <= faces.size(); }
 };
 
 /// The connected faces against their points that a face is one of.
@@ -56,14 +53,14 @@ Patch patch_of(std::size_t face, const Adjacency& beside, const std::vector<bool
 
 }  // namespace
 
-Index turn_hanging_patches(std::vector<Triangle>& faces, const std::vector<bool>& against) {
+Index turn_hanging_patches(std::vector<Triangle>& faces, const std::vector<bool>& against, Index least_faces) {
   const Adjacency beside = faces_beside(faces);
   std::vector<bool> seen(faces.size(), false), cut(faces.size(), false);
   Index turned = 0;
   for (std::size_t face = 0; face < faces.size(); ++face) {
     if (!against[face] || seen[face]) continue;
     const Patch patch = patch_of(face, beside, against, seen);
-    if (!patch.hangs()) continue;
+    if (static_cast<Index>(patch.faces.size()) < least_faces || !patch.hangs()) continue;
     ++turned;
     for (const std::size_t f : patch.faces) std::swap(faces[f][1], faces[f][2]);
     for (const std::size_t f : patch.neck) cut[f] = true;

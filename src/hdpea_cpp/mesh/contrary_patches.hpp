@@ -15,9 +15,10 @@ namespace hdpea {
 /// of twice the number of edges that it shares with the rest is at most that of its faces: the corner of a square
 /// sheet, cut off straight, shares twice as many.
 ///
-/// @param faces    oriented, edge-manifold; on return without those of the patches at the necks, in the same order
-/// @param against  of each face: whether it faces against its points
+/// @param faces        oriented, edge-manifold; on return without those of the patches at the necks, in the same order
+/// @param against      of each face: whether it faces against its points
+/// @param least_faces  smaller patches stay as they are
 /// @return how many patches were turned
-Index turn_hanging_patches(std::vector<Triangle>& faces, const std::vector<bool>& against);
+Index turn_hanging_patches(std::vector<Triangle>& faces, const std::vector<bool>& against, Index least_faces);
 
 }  // namespace hdpea

@@ -216,7 +216,7 @@ ExtractedMesh Extractor::finish() {
     if (turned) std::swap(triangle[1], triangle[2]);
     kept.push_back(triangle);
   }
-  counts_.turned_patches = turn_hanging_patches(kept, against);
+  counts_.turned_patches = turn_hanging_patches(kept, against, least);
   // They were inserted in the order of their radii, which rounding (a cloud in other units) may change.
   std::sort(kept.begin(), kept.end());
   ExtractedMesh extracted;

@@ -56,7 +56,7 @@ MeshCheck check_of(const std::vector<Triangle>& triangles) {
 TEST(ContraryPatches, APatchThatHangsByANeckIsCutOffAndTurned) {
   std::vector<Triangle> faces = joined_squares(2);
   const std::vector<Triangle> before = faces;
-  EXPECT_EQ(turn_hanging_patches(faces, second_square(before)), 1);
+  EXPECT_EQ(turn_hanging_patches(faces, second_square(before), 16), 1);
   const MeshCheck check = check_of(faces);
   EXPECT_EQ(check.components, 2);
   EXPECT_TRUE(check.manifold() && check.oriented());
@@ -67,12 +67,19 @@ TEST(ContraryPatches, APatchThatHangsByANeckIsCutOffAndTurned) {
   EXPECT_GE(faces.size() + 4, before.size());
 }
 
+TEST(ContraryPatches, ASmallPatchStays) {
+  std::vector<Triangle> faces = joined_squares(2);
+  const std::vector<Triangle> before = faces;
+  EXPECT_EQ(turn_hanging_patches(faces, second_square(before), 200), 0);
+  EXPECT_EQ(faces, before);
+}
+
 TEST(ContraryPatches, HalfOfASurfaceIsNotCutOff) {
   std::vector<Triangle> faces = joined_squares(kSide - 1);
   std::vector<bool> against(faces.size(), false);
   for (std::size_t f = 0; f < faces.size(); ++f) against[f] = faces[f][0] % kSide < 5 && faces[f][0] < kSide * kSide;
   const std::vector<Triangle> before = faces;
-  EXPECT_EQ(turn_hanging_patches(faces, against), 0);
+  EXPECT_EQ(turn_hanging_patches(faces, against, 16), 0);
   EXPECT_EQ(faces, before);
 }
 
@@ -81,7 +88,7 @@ TEST(ContraryPatches, AFaceHereAndThereStays) {
   std::vector<bool> against(faces.size(), false);
   for (std::size_t f = 0; f < faces.size(); f += 9) against[f] = true;
   const std::vector<Triangle> before = faces;
-  EXPECT_EQ(turn_hanging_patches(faces, against), 0);
+  EXPECT_EQ(turn_hanging_patches(faces, against, 16), 0);
   EXPECT_EQ(faces, before);
 }
 

@@ -128,7 +128,6 @@ ExtractedMesh mesh_of_turned_strip(Index max_bridged_faces, Index turned = 20) {
   for (Index t = 0; t < count - 2; ++t) candidates.triangles.row(t) << t, t + 1, t + 2;
   ExtractionOptions options;
   options.max_bridged_faces = max_bridged_faces;
-  options.min_component_faces = 1;
   return extract_manifold(points, normals, Eigen::VectorXd::Ones(count), candidates, options);
 }
 
