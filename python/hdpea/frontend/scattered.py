@@ -66,7 +66,7 @@ def scattered(standing: Standing) -> NDArray[np.int64]:
     found = rows[volume[rows] & (volume[standing.nearest[rows, :COMPANY]].sum(axis=1) >= LEAST_COMPANY)]
     if len(found) < LEAST_SHARE * len(rows) or _apart(standing, found, flat) > MOST_APART * np.median(reached[found]):
         return rows[:0]
-    return found
+    return np.asarray(found)
 
 
 def _apart(standing: Standing, strays: NDArray[np.int64], flat: NDArray[np.int64]) -> float:

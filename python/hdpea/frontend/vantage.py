@@ -60,7 +60,8 @@ def with_sensor_found(cloud: PointCloud) -> PointCloud:
 def _uneven_as_seen(points: NDArray[np.float64]) -> float | None:
     """Return which share of their unevenness distinct points (n, 3) have as seen from the origin, if it is likely.
 
-    None of them may lie there."""
+    None of them may lie there.
+    """
     # What is too small or too large for squares is no scan in metres.
     with np.errstate(over="ignore", under="ignore"):
         distances = np.linalg.norm(points, axis=1)

@@ -21,6 +21,7 @@ from hdpea.surface.given_signs import GivenSigns, given_signs
 from hdpea.surface.orientation import orient, require_signs
 from hdpea.surface.plausibility import are_normals
 from hdpea.surface.signs import SignEvidence, Vectors
+from hdpea.surface.single_view import View
 from hdpea.surface.surface import NEIGHBORS, Surface, require_surface
 
 ORIENTATION_NEIGHBORS = 16
@@ -50,12 +51,10 @@ class OrientedSurface:
         Whether directions were given that are no normals, so that these were estimated instead.
     choices
         What was chosen automatically.
-    from_one_place
-        Whether a single sensor saw all points, as far as is known.
-    doubled
-        Whether strips overlap that do not meet, as far as the view tells.
-    from_above
-        Whether that it is a height field, which the points alone say, decided the signs.
+    view
+        From where the points were seen, where that decided the signs.
+    sensors_refused
+        Whether sensors were known, and cannot have seen the points.
     parts
         Rows of each part that was sampled far more densely than the scene it lies in.
     """
@@ -67,10 +66,24 @@ class OrientedSurface:
     method: str
     refused: bool = False
     choices: tuple[Choice, ...] = ()
-    from_one_place: bool = False
-    doubled: bool = False
-    from_above: bool = False
+    view: View | None = None
+    sensors_refused: bool = False
     parts: tuple[NDArray[np.int64], ...] = ()
+
+    @property
+    def from_one_place(self) -> bool:
+        """Whether a single sensor saw all points, as far as is known."""
+        return self.view is not None and self.view.from_one_place
+
+    @property
+    def doubled(self) -> bool:
+        """Whether strips overlap that do not meet, as far as the view tells."""
+        return self.view is not None and self.view.doubled
+
+    @property
+    def from_above(self) -> bool:
+        """Whether that it is a height field, which the points alone say, decided the signs."""
+        return self.view is not None and self.view.from_above
 
     @property
     def computed_sides(self) -> bool:
@@ -141,9 +154,8 @@ def oriented_surface(
         method=orientation.method,
         refused=refused,
         choices=choices,
-        from_one_place=orientation.from_one_place,
-        doubled=orientation.doubled,
-        from_above=orientation.from_above,
+        view=orientation.view,
+        sensors_refused=orientation.sensors_refused,
         parts=parts,
     )
 

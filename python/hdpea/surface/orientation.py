@@ -8,6 +8,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
+from hdpea import _core
 from hdpea.errors import UnreadableInput, UsageError
 from hdpea.geometry.thinning import rows_without
 from hdpea.options import NormalOptions
@@ -15,7 +16,8 @@ from hdpea.runtime.progress import PhaseCallback
 from hdpea.surface.agreement_of_signs import by_agreement
 from hdpea.surface.sign_methods import by_file, by_spanning_tree, by_view, by_winding_number
 from hdpea.surface.signs import Orientation, SignEvidence, Vectors, turned
-from hdpea.surface.single_view import View, single_view
+from hdpea.surface.single_view import View, single_view, towards_of
+from hdpea.surface.visibility import MOST_HIDDEN, share_hidden
 
 
 def require_signs(given: Vectors, sensors: Vectors | None, options: NormalOptions) -> None:
@@ -82,14 +84,30 @@ def _by_best_method(
     if signs is not None and signs.trusted:
         why = f"{signs.consistency:.0%} of neighbours agree on the side"
         return Orientation(by_file(points, directions, evidence), "file", why)
+    if evidence.sensors is not None and (other := _if_hidden(points, directions, evidence, progress)) is not None:
+        return other
     view = _view(points, directions, evidence)
     # A ball on the ground may be so small a share of the points that all seem to be a height field.
     if parts and not (view is not None and (view.from_one_place or evidence.sensors is not None)):
         return _each_by_itself(points, directions, evidence, progress, parts)
     if view is not None:
         normals = by_view(points, directions, evidence, view)
-        return Orientation(normals, "viewpoint", view.why, view.from_one_place, view.doubled, view.from_above)
+        return Orientation(normals, "viewpoint", view.why, view)
     return by_agreement(points, directions, evidence, progress)
+
+
+def _if_hidden(
+    points: Vectors, directions: Vectors, evidence: SignEvidence, progress: PhaseCallback | None
+) -> Orientation | None:
+    """Orient without the sensors if many points lie behind others from there, and more neighbours agree without."""
+    if evidence.sensors is None or share_hidden(points, directions, evidence.sensors) < MOST_HIDDEN:
+        return None
+    without = _by_best_method(points, directions, replace(evidence, sensors=None), progress)
+    towards = turned(directions, towards_of(points, evidence.sensors))
+    agreed = [
+        _core.orientation_consistency(points, normals, evidence.neighbors) for normals in (towards, without.normals)
+    ]
+    return replace(without, sensors_refused=True) if agreed[0] < agreed[1] else None
 
 
 def _each_by_itself(

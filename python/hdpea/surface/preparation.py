@@ -123,6 +123,8 @@ def _notes(cloud: PointCloud, oriented: OrientedSurface) -> list[str]:
     if oriented.method != "file" and signs is not None and not signs.trusted:
         share = f"{signs.consistency:.0%} of neighbours agreed{', patch by patch' if signs.patchy else ''}"
         notes.append(f"The given normals point both ways ({share}); they were oriented anew.")
+    if oriented.sensors_refused:
+        notes.append("The sensors cannot have seen the points, which lie behind others from there: they do not count.")
     if oriented.from_one_place:
         notes.append("The points were seen from one place: what cannot be seen from there is missing.")
     return notes

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from hdpea import _core
 from hdpea.frontend.roughness import Roughness
 from hdpea.surface.given_signs import GivenSigns
+from hdpea.surface.single_view import View
 
 Vectors = NDArray[np.float64]
 
@@ -68,20 +69,17 @@ class Orientation:
         One of ``NormalOptions.orient``.
     why
         Why this method was chosen.
-    from_one_place
-        Whether a single sensor saw all points, as far as is known.
-    doubled
-        Whether strips overlap that do not meet, as far as the view tells.
-    from_above
-        Whether that the surface is a height field, which the points alone say, decided the signs.
+    view
+        From where the points were seen, where that decided the signs.
+    sensors_refused
+        Whether sensors were known, and cannot have seen the points.
     """
 
     normals: Vectors
     method: str
     why: str = ""
-    from_one_place: bool = False
-    doubled: bool = False
-    from_above: bool = False
+    view: View | None = None
+    sensors_refused: bool = False
 
 
 def turned(directions: Vectors, towards: Vectors) -> Vectors:
