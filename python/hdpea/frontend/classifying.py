@@ -18,6 +18,11 @@ from hdpea.geometry.spatial_order import spatial_order
 FEWEST_POINTS = 100
 """Fewer are taken as they are: nothing can be said of how they are spread."""
 
+NEARLY_ALL, OUT_OF_PROPORTION = 0.95, 1e4
+"""Share of the points that lie within some distance of the middle, and how many times as far others are strays.
+
+They keep each other company, as positions without a fix do; but no surface is seen at both scales."""
+
 
 @dataclass(frozen=True)
 class Classified:
@@ -74,7 +79,7 @@ def classify(points: ArrayLike) -> Classified:
     with core_errors_translated():
         nearest = _core.nearest_neighbors(centered, NEIGHBORS)
         sampling = sampling_of(centered, nearest)
-        strays = _strays_of(centered, nearest, sampling)
+        strays = _strays_of(centered, nearest, sampling) | _out_of_proportion(centered)
     heaped = in_heaps(centered, nearest, strays)
     given = np.empty_like(order)
     given[order] = np.arange(len(order))
@@ -83,6 +88,12 @@ def classify(points: ArrayLike) -> Classified:
     return Classified(
         strays[given], heaped[given], kept[given], stands_for[given], sampling.spacing[given], sampling.on_lines
     )
+
+
+def _out_of_proportion(centered: NDArray[np.float64]) -> NDArray[np.bool_]:
+    """Return which points (n, 3), about their middle, are too far away to be of the same scan, (n,) bool."""
+    distances = abs(centered).max(axis=1)  # squares may be no doubles
+    return np.asarray(distances > OUT_OF_PROPORTION * np.quantile(distances, NEARLY_ALL))
 
 
 def _strays_of(points: NDArray[np.float64], nearest: NDArray[np.int64], sampling: Sampling) -> NDArray[np.bool_]:

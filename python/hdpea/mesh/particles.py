@@ -28,6 +28,12 @@ KERNEL_WIDTH = 0.28
 AREA_DISK_RADIUS = 2.0
 """Radius of the disks that measure the area, in mean distances of the seeds: large enough to hold their cells."""
 
+MOST_AREA = 16.0
+"""Most that a seed's cell counts for, in medians: an even one has no larger disk.
+
+That of a thing so small that one seed is all of it reaches to the next thing; sixty points far away made particles of
+all others leave their places."""
+
 INTERACTIONS = 16
 """Particles that push each particle; the kernel is negligible beyond."""
 
@@ -162,7 +168,8 @@ def spread_particles(
         beside = Particles(coordinates[:0], seeds[:0]) if placed is None else placed
         starts = np.vstack([coordinates[seeds], beside.coordinates])
         cells, _ = restricted_cells(starts, bases[np.concatenate([seeds, beside.nearest])], AREA_DISK_RADIUS)
-        squared_width = KERNEL_WIDTH**2 * float(cells.cell_areas.sum()) / len(starts)
+        areas = np.minimum(cells.cell_areas, MOST_AREA * np.median(cells.cell_areas))
+        squared_width = KERNEL_WIDTH**2 * float(areas.sum()) / len(starts)
         cloud = _Cloud(coordinates, bases, neighbors, torch_device(device))
         nearest = torch.tensor(seeds, device=cloud.points.device)  # (m,)
         x = cloud.points[nearest]  # (m, d)

@@ -63,26 +63,6 @@ class Agreement {
   double min_cosine_;
 };
 
-/// The vertices that fit best in one round beside those that are fixed: they solve the normal equations.
-Points fitted_vertices(const Points& vertices, const FacesRef& faces, const PointsRef& points, const PointsRef& normals,
-                       const RefinementOptions& options, const MaskRef& fixed) {
-  const SurfacePoints feet = closest_surface_points(vertices, faces, points);
-  const Agreement agreement(vertices, faces, options.min_cosine);
-  const double pull = options.pull * static_cast<double>(points.rows()) / static_cast<double>(vertices.rows());
-  VertexSystem system(vertices.rows(), faces);
-  system.add_to_diagonal(pull);
-  Points right = pull * vertices;
-  for (Index p = 0; p < points.rows(); ++p) {
-    const Index f = feet.face(p);
-    const Eigen::RowVector3d weights = feet.barycentric.row(p), normal = normals.row(p);
-    if (!agreement.holds(normal, f, weights)) continue;
-    system.add(f, weights, normal);
-    const double offset = normal.dot(points.row(p));
-    for (int i = 0; i < 3; ++i) right.row(faces(f, i)) += offset * weights(i) * normal;
-  }
-  return system.solve(right, vertices, fixed);
-}
-
 /// The size of the faces around each vertex, sqrt(2 area).
 Eigen::VectorXd sizes(const Points& vertices, const FacesRef& faces) {
   const Points areas = area_vectors(vertices, faces);
@@ -94,6 +74,28 @@ Eigen::VectorXd sizes(const Points& vertices, const FacesRef& faces) {
     }
   }
   return (sums.array() / counts.array().max(1)).sqrt();
+}
+
+/// The vertices that fit best in one round beside those that are fixed: they solve the normal equations.
+Points fitted_vertices(const Points& vertices, const FacesRef& faces, const PointsRef& points, const PointsRef& normals,
+                       const RefinementOptions& options, const MaskRef& fixed) {
+  const SurfacePoints feet = closest_surface_points(vertices, faces, points);
+  const Agreement agreement(vertices, faces, options.min_cosine);
+  const double pull = options.pull * static_cast<double>(points.rows()) / static_cast<double>(vertices.rows());
+  const Eigen::VectorXd reach = options.max_distance * sizes(vertices, faces);
+  VertexSystem system(vertices.rows(), faces);
+  system.add_to_diagonal(pull);
+  Points right = pull * vertices;
+  for (Index p = 0; p < points.rows(); ++p) {
+    const Index f = feet.face(p);
+    const Eigen::RowVector3d weights = feet.barycentric.row(p), normal = normals.row(p);
+    const double farthest = reach(faces.row(f).transpose()).maxCoeff();
+    if (feet.distance(p) > farthest || !agreement.holds(normal, f, weights)) continue;
+    system.add(f, weights, normal);
+    const double offset = normal.dot(points.row(p));
+    for (int i = 0; i < 3; ++i) right.row(faces(f, i)) += offset * weights(i) * normal;
+  }
+  return system.solve(right, vertices, fixed);
 }
 
 Eigen::VectorXd distances(const PointsRef& points, const NearestPoints& nearest, const Points& places) {
@@ -173,8 +175,8 @@ Points refine_vertices(const PointsRef& vertices, const FacesRef& faces, const P
   require_rows(normals, points.rows(), "normals");
   if (fixed.size() > 0) require_rows(fixed, vertices.rows(), "fixed");
   require_finite(normals, "normals");
-  require(options.rounds >= 0 && options.pull > 0 && options.max_gap > 0,
-          "rounds must be 0 or more, pull and max_gap positive");
+  require(options.rounds >= 0 && options.pull > 0 && options.max_distance > 0 && options.max_gap > 0,
+          "rounds must be 0 or more, pull, max_distance and max_gap positive");
   Points refined = vertices;
   const NearestPoints nearest(points);
   const Points outward = normals_at_corners(vertices, faces, nearest, normals);

@@ -93,6 +93,19 @@ TEST(Refinement, NoVertexLeavesTheCloud) {
   EXPECT_GT(lifted.col(2).cwiseAbs().maxCoeff(), 0.2);
 }
 
+TEST(Refinement, PointsOfWhatIsMissingPullNothing) {
+  const auto mesh = shapes::grid(8, 8);
+  const auto plane = clouds::plane(1000);
+  Points points(1040, 3), normals = plane.normals.row(0).replicate(1040, 1);
+  points << plane.points, (plane.points.topRows(40) * 0.1).rowwise() + Eigen::RowVector3d(0.5, 0.5, 3);
+  RefinementOptions options;
+  const Points refined = refine_vertices(mesh.vertices, mesh.faces, points, normals, options);
+  EXPECT_LT((refined - mesh.vertices).cwiseAbs().maxCoeff(), 1e-9);
+  options.max_distance = 100;
+  const Points drawn = refine_vertices(mesh.vertices, mesh.faces, points, normals, options);
+  EXPECT_GT((drawn - mesh.vertices).cwiseAbs().maxCoeff(), 0.01);
+}
+
 TEST(Refinement, NoRoundsChangeNothing) {
   const auto mesh = shapes::tetrahedron();
   const auto sphere = clouds::sphere(100);

@@ -29,3 +29,12 @@ def test_a_ball_above_a_floor_is_whole_and_faces_out(vertices: int | None) -> No
     out = np.where(of_ball[:, None], offsets, [0.0, 0.0, 1.0])
     assert share_against(made, out) == 0
     assert not made.report.missed
+
+
+@pytest.mark.parametrize("far", [3.0, 30.0, 3e3, 1e5])
+def test_a_small_thing_far_away_changes_nothing(far: float) -> None:
+    ball, thing = sphere_points(4000, 1), 0.02 * sphere_points(60, 2) + [far, 2 * far, 0]
+    made = reconstruct(np.vstack([ball, thing]))
+    mesh = made.report.mesh
+    assert (mesh.components, mesh.closed, mesh.self_intersections) == (1, True, 0)
+    np.testing.assert_allclose(np.linalg.norm(made.vertices, axis=1), 1, rtol=0.02)
