@@ -20,7 +20,7 @@ from hdpea.mesh.extraction import Mesh
 from hdpea.mesh.levels import coarser_levels
 from hdpea.mesh.noise import error_within_noise, within_noise
 from hdpea.mesh.parts import mesh_surface
-from hdpea.mesh.sides import FacedMesh, facing_out
+from hdpea.mesh.sides import FacedMesh, facing_as_given, facing_out
 from hdpea.mesh.texture import texture_of
 from hdpea.options import Options
 from hdpea.options.choice import Choice
@@ -124,6 +124,8 @@ def _make(
 def _facing_out(mesh: Mesh, prepared: Preparation) -> FacedMesh:
     """Turn closed pieces that face inwards, unless it is known from where they were seen."""
     sides = prepared.oriented
+    if sides.method == "file":
+        return facing_as_given(mesh)
     if not sides.computed_sides and not sides.from_above:
         return FacedMesh(mesh)
     faced = facing_out(mesh)

@@ -34,3 +34,16 @@ def facing_out(mesh: Mesh) -> FacedMesh:
     notes = (guess,) if faced.sideless > MOST_GUESSED else ()
     statistics = mesh.statistics | {"pieces_turned": faced.turned}
     return FacedMesh(replace(mesh, faces=faced.faces, statistics=statistics), notes)
+
+
+def facing_as_given(mesh: Mesh) -> FacedMesh:
+    """Leave the sides of a mesh as the normals of its points have them, and say which closed pieces are inside out.
+
+    A room that was scanned from within is; of a thing, all normals of the file may have the wrong sign.
+    """
+    with core_errors_translated():
+        inside_out = _core.face_outwards(mesh.vertices_in_unit, mesh.faces).turned
+    if not inside_out:
+        return FacedMesh(mesh)
+    some = "A closed piece faces" if inside_out == 1 else f"{inside_out:,} closed pieces face"
+    return FacedMesh(mesh, (f"{some} inwards, as the given normals do: `orient` wnnc turns such outwards.",))

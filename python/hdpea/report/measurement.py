@@ -71,7 +71,8 @@ class Comparison(NamedTuple):
     """A mesh next to its points: how far these are, as they were given, and what either has alone, as embedded.
 
     ``farthest`` is the largest of the distances (n,) ``of_embedded`` points from the mesh, in spacings of its vertices;
-    they themselves are in the unit frame. ``along_z`` is None unless the mesh is a height field.
+    they themselves are in the unit frame. ``along_z`` is None unless the mesh is a height field. ``pieces_left_out`` is
+    how many were too small to be kept.
     """
 
     distances: Distances
@@ -79,13 +80,18 @@ class Comparison(NamedTuple):
     farthest: float
     of_embedded: NDArray[np.float64]
     along_z: HeightDifferences | None = None
+    pieces_left_out: int = 0
 
     def missing_part(self) -> Iterator[str]:
         """Yield a sentence if a part of the points may have no mesh."""
         if self.farthest > FARTHEST:
+            why = "More `particles` show thinner parts."
+            if self.pieces_left_out:
+                some = "1 piece" if self.pieces_left_out == 1 else f"{self.pieces_left_out:,} pieces"
+                why = f"{some} of few faces left out: `min_component` 0 keeps such, more `vertices` show them."
             yield (
                 f"A part may be missing: points lie up to {self.distances.max:.3g} from the mesh, {self.farthest:.1f} "
-                "times as far as its vertices are apart. More `particles` show thinner parts."
+                f"times as far as its vertices are apart. {why}"
             )
 
 
@@ -102,6 +108,7 @@ def compare(mesh: Mesh, prepared: Preparation, vertices: int) -> Comparison:
         float(of_embedded.max()) / vertex_spacing if vertex_spacing > 0 else 0.0,
         of_embedded,
         HeightDifferences.of(height_differences(mesh, given, distances) * diagonal) if is_height_field(mesh) else None,
+        int(mesh.statistics.get("dropped_components", 0)),
     )
 
 

@@ -97,3 +97,13 @@ def test_a_side_that_the_file_says_is_kept() -> None:
     made = reconstruct(ball, -ball)
     assert volume(made.vertices, made.faces) == pytest.approx(-4 / 3 * np.pi, rel=0.01)
     assert "pieces_turned" not in made.report.meshing
+
+
+@pytest.mark.parametrize("sign", [1, -1])
+def test_normals_that_face_in_are_taken_and_told(sign: int) -> None:
+    points, normals = clouds.sphere(2000)
+    made = reconstruct(points, sign * normals)
+    assert np.sign(volume(made.vertices, made.faces)) == sign
+    assert any("faces inwards, as the given normals do" in note for note in made.report.notes) == (sign < 0)
+    turned = reconstruct(points, sign * normals, orient="wnnc")
+    assert volume(turned.vertices, turned.faces) > 0
