@@ -159,6 +159,7 @@ def missed_targets(mesh: Mesh, facts: MeshFacts, options: MeshingOptions) -> Ite
     # What closes a wide gap is a guess, and may lie in what it closes.
     if not options.watertight and facts.self_intersections > MOST_CUT * len(mesh.faces):
         count = f"{facts.self_intersections:,} pairs of {len(mesh.faces):,} faces cut others"
-        collapsed = mesh.statistics.get("edges_collapsed", 0) > 0
-        why = "so few cannot show it; ask for more" if collapsed else "the points are too few for it, or on no surface"
+        asked = not options.any_size and mesh.statistics.get("edges_collapsed", 0) > 0
+        unfit = "the points are too few for it, on no surface, or of scans that do not meet"
+        why = "so few cannot show it; ask for more" if asked else unfit
         yield f"{count}: {why}."

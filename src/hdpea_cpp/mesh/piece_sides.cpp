@@ -16,6 +16,7 @@ namespace hdpea {
 namespace {
 
 constexpr double kMostOpen = 0.25;  // vector area of a piece that has an inside, in areas
+constexpr double kLying = 0.7;      // the same, downwards, of what was rather seen from above: all of it, and a piece
 constexpr Index kProbes = 5;        // vertices of a piece that vote on whether it is within another
 /// Length of its borders, in square roots of its area, up to which a piece with gaps is as good as closed.
 /// A ball with a hole whose radius is a seventh of its own has 0.25; a box without its lid has 1.8, half a ball 2.5.
@@ -30,6 +31,7 @@ struct Piece {
   bool closed = true;  // has no border, not even one of length 0
 
   bool holds_things() const { return border <= kMostBorder * std::sqrt(area); }
+  bool lies_face_down() const { return !closed && vector_area.z() < -kLying * area; }
 };
 
 class Pieces {
@@ -133,11 +135,16 @@ FacedMesh face_outwards(const PointsRef& vertices, const FacesRef& faces) {
   require_mesh(vertices, faces);
   const Pieces pieces(vertices, faces);
   FacedMesh faced{faces};
-  double area = 0;
+  double area = 0, upwards = 0;
   for (const Piece& piece : pieces.all()) {
     area += piece.area;
+    upwards += piece.vector_area.z();
     if (piece.vector_area.norm() > kMostOpen * piece.area) faced.sideless += piece.area;
-    if (!piece.closed || piece.volume >= 0 || pieces.is_within_another(piece)) continue;
+  }
+  for (const Piece& piece : pieces.all()) {
+    const bool face_down = upwards < -kLying * area && piece.lies_face_down();
+    const bool inside_out = piece.closed && piece.volume < 0 && !pieces.is_within_another(piece);
+    if (!face_down && !inside_out) continue;
     for (Index f : piece.faces) std::swap(faced.faces(f, 1), faced.faces(f, 2));
     ++faced.turned;
   }

@@ -8,16 +8,17 @@ namespace hdpea {
 /// A mesh whose closed pieces face out.
 struct FacedMesh {
   Faces faces;          ///< as given, those of turned pieces with two corners exchanged
-  Index turned = 0;     ///< pieces that were inside out
+  Index turned = 0;     ///< pieces that were inside out, or face down
   double sideless = 0;  ///< share of the area in pieces so open that nothing is inside or outside of them
 };
 
-/// Turns closed pieces of negative volume.
+/// Turns closed pieces of negative volume, and open ones if all lies flat and faces down.
 ///
 /// A piece within another one that is closed, but for small gaps, is left as it is: it may be the wall of a cavity,
-/// which faces into that; what lies in an open one is a thing in a bowl. Open pieces are left as they are, too. Without
-/// an inside are those whose boundary spans more than a quarter of their area: a sphere that lacks its foot has one,
-/// half a sphere has none.
+/// which faces into that; what lies in an open one is a thing in a bowl. The side of an open piece is a guess, but
+/// floors, tables and land are seen from above; of a thin plate's two sides, one does face down. Without an inside are
+/// those whose boundary spans more than a quarter of their area: a sphere that lacks its foot has one, half a sphere
+/// has none.
 ///
 /// @param vertices  (v, 3), finite
 /// @param faces     (f, 3) manifold and oriented, no vertex in two pieces that do not share an edge

@@ -54,6 +54,33 @@ TEST(PieceSides, WhatIsOpenIsKept) {
   }
 }
 
+/// Flat squares at the given heights, each facing up or down.
+TriangleMesh squares(const std::vector<std::pair<double, bool>>& heights_and_up) {
+  const shapes::Mesh grid = shapes::grid(4, 4);
+  const Index vertices = grid.vertices.rows(), faces = grid.faces.rows();
+  const Index count = static_cast<Index>(heights_and_up.size());
+  TriangleMesh mesh{grid.vertices.replicate(count, 1), grid.faces.replicate(count, 1)};
+  for (Index k = 0; k < count; ++k) {
+    const auto& [height, up] = heights_and_up[k];
+    mesh.vertices.middleRows(k * vertices, vertices).col(2).array() += height;
+    auto own = mesh.faces.middleRows(k * faces, faces);
+    own.array() += k * vertices;
+    if (!up) own.col(1).swap(own.col(2));
+  }
+  return mesh;
+}
+
+TEST(PieceSides, WhatLiesFlatFacesUp) {
+  const TriangleMesh up = squares({{0, true}, {3, true}}), down = squares({{0, false}, {3, false}});
+  EXPECT_EQ(face_outwards(down.vertices, down.faces).faces, up.faces);
+  EXPECT_EQ(face_outwards(up.vertices, up.faces).faces, up.faces);
+}
+
+TEST(PieceSides, OfAPlatesTwoSidesOneFacesDown) {
+  const TriangleMesh plate = squares({{0, false}, {0.1, true}});
+  EXPECT_EQ(face_outwards(plate.vertices, plate.faces).faces, plate.faces);
+}
+
 TEST(PieceSides, InAnOpenBowlAClosedPieceIsTurned) {
   for (const bool out : {false, true}) {
     const Faces given = nested({{1, false}, {0.1, out}}).faces.bottomRows(7);  // the bowl lacks one of its four faces
