@@ -66,6 +66,24 @@ def test_a_scanner_within_saw_what_surrounds_it() -> None:
     assert share_along(found, -normals) > 0.99
 
 
+def wall_through_leaves() -> Array:
+    """Return what a scanner 10 before a wall sees of it, and of leaves of a few points each that hang before it."""
+    random = np.random.default_rng(0)
+    rays = np.column_stack([random.uniform(-0.3, 0.3, (8000, 2)), np.ones(8000)])
+    depths = np.full(len(rays), 10.0)
+    for leaf in np.column_stack([random.uniform(-0.3, 0.3, (1500, 2)), random.uniform(6, 8, 1500)]):
+        at_leaf = np.linalg.norm(rays[:, :2] - leaf[:2], axis=1) * leaf[2] < 0.04
+        depths[at_leaf] = np.minimum(depths[at_leaf], leaf[2])
+    return rays * depths[:, None]
+
+
+def test_sensors_see_through_a_hedge() -> None:
+    points = wall_through_leaves()
+    found = seen(points + [5.0, 0, 0], np.array([5.0, 0, 0]))
+    assert not found.sensors_refused
+    assert share_along(found, -points) > 0.95
+
+
 def test_layers_of_one_surface_hide_nothing() -> None:
     points = sphere_points(6000, 1)
     half = points[points[:, 2] > 0.2]
