@@ -33,7 +33,7 @@ class PointStream:
     count
         Points that its header announces.
     chunks
-        Returns the pieces, in the order of the file: points and normals, as they are in it.
+        Returns the pieces, in the order of the file: points, normals and sensors, as they are in it.
     identity
         What tells it from any other cloud: of a file its name, size and time, of arrays a digest.
     streamed
@@ -146,8 +146,9 @@ def _identity(path: Path) -> str:
 
 
 def _digest(cloud: PointCloud) -> str:
-    digest = hashlib.sha256(np.ascontiguousarray(cloud.points).tobytes())
-    digest.update(b"" if cloud.normals is None else np.ascontiguousarray(cloud.normals).tobytes())
+    digest = hashlib.sha256()
+    for array in (cloud.points, cloud.normals, cloud.sensors()):
+        digest.update(b"" if array is None else np.ascontiguousarray(array).tobytes())
     return digest.hexdigest()
 
 

@@ -18,8 +18,8 @@ from hdpea.tiling.cells import Cells, rows_of
 from hdpea.tiling.folder import WorkFolder
 from hdpea.tiling.plan import Plan, plan_tiles
 
-COLUMNS = 6
-"""Of the rows that are kept: a point, and its normal, or zeros."""
+COLUMNS = 9
+"""Of the rows that are kept: a point, its normal, or zeros, and the place of its sensor, or no numbers."""
 
 
 def take_in(stream: PointStream, folder: WorkFolder, options: Options, tile_points: int, most_points: int) -> Plan:
@@ -47,11 +47,12 @@ def take_in(stream: PointStream, folder: WorkFolder, options: Options, tile_poin
 
 
 def tile_cloud(folder: WorkFolder, plan: Plan, tile: int) -> PointCloud:
-    """Return the points of a tile and its halo, as they were read; normals if any point has one."""
+    """Return the points of a tile and its halo, as they were read; normals if any has one, sensors if all have."""
     rows = np.fromfile(_tile_file(folder, tile)).reshape(-1, COLUMNS)
     rows = rows[plan.inside(tile, plan.frame.to_unit(rows[:, :3]), plan.halo)]  # cells reach farther
-    normals = np.ascontiguousarray(rows[:, 3:])
-    return PointCloud(np.ascontiguousarray(rows[:, :3]), normals if normals.any() else None, {})
+    points, normals, sensors = (np.ascontiguousarray(each) for each in np.split(rows, 3, axis=1))
+    known = {"sensor": sensors} if np.isfinite(sensors).all() else {}
+    return PointCloud(points, normals if normals.any() else None, known)
 
 
 def _write_rows(stream: PointStream, path: Path) -> tuple[UnitFrame, int]:
@@ -62,7 +63,9 @@ def _write_rows(stream: PointStream, path: Path) -> tuple[UnitFrame, int]:
             rows = np.zeros((len(chunk.points), COLUMNS))
             rows[:, :3] = chunk.points
             if chunk.normals is not None:
-                rows[:, 3:] = chunk.normals
+                rows[:, 3:6] = chunk.normals
+            sensors = chunk.sensors()
+            rows[:, 6:] = np.nan if sensors is None else sensors
             rows = rows[np.isfinite(rows[:, :3]).all(axis=1)]
             rows.tofile(file)
             count += len(rows)

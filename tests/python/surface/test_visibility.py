@@ -79,7 +79,8 @@ def wall_through_leaves() -> Array:
 
 def test_sensors_see_through_a_hedge() -> None:
     points = wall_through_leaves()
-    found = seen(points + [5.0, 0, 0], np.array([5.0, 0, 0]))
+    aside = np.array([5.0, 0, 0])
+    found = seen(points + aside, aside)
     assert not found.sensors_refused
     assert share_along(found, -points) > 0.95
 

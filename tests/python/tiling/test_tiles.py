@@ -7,6 +7,7 @@ import threading
 import time
 from collections.abc import Iterator
 from pathlib import Path
+from typing import Literal
 
 import numpy as np
 import pytest
@@ -155,6 +156,18 @@ def test_tiles_without_normals_agree_on_the_outside(tmp_path: Path) -> None:
     corners = mesh.vertices[mesh.faces]
     assert mesh.report.mesh.closed
     assert np.einsum("fc,fc->", corners[:, 0], np.cross(corners[:, 1], corners[:, 2])) > 0
+
+
+@pytest.mark.parametrize("orient", ["auto", "viewpoint"])
+def test_tiles_know_their_sensors(tmp_path: Path, orient: Literal["auto", "viewpoint"]) -> None:
+    points, outward = clouds.torus(POINTS)
+    within = points - 0.2 * outward
+    stream = stream_of_cloud(PointCloud(points, None, {"sensor": within}), "tunnel")
+    options = Options(normals=NormalOptions(orient=orient))
+    mesh = reconstruct_in_tiles(stream, Tiling(tmp_path / "a", 1e9, tile_points=TILE_POINTS), options)
+    corners = mesh.vertices[mesh.faces]
+    assert mesh.report.counts["tiles"] > 1
+    assert np.einsum("fc,fc->", corners[:, 0], np.cross(corners[:, 1], corners[:, 2])) < 0
 
 
 def test_neither_processes_nor_memory_change_the_tiles_if_there_is_enough() -> None:
