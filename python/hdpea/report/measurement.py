@@ -84,24 +84,28 @@ class Comparison(NamedTuple):
 
     def missing_part(self) -> Iterator[str]:
         """Yield a sentence if a part of the points may have no mesh."""
-        if self.farthest > FARTHEST:
-            why = "More `particles` show thinner parts."
-            if self.pieces_left_out:
-                some = "1 piece" if self.pieces_left_out == 1 else f"{self.pieces_left_out:,} pieces"
-                why = f"{some} of few faces left out: `min_component` 0 keeps such, more `vertices` show them."
-            yield (
-                f"A part may be missing: points lie up to {self.distances.max:.3g} from the mesh, {self.farthest:.1f} "
-                f"times as far as its vertices are apart. {why}"
-            )
+        yield from missing_part(self.distances, self.farthest, self.pieces_left_out)
+
+
+def missing_part(distances: Distances, farthest: float, pieces_left_out: int) -> Iterator[str]:
+    """Yield a sentence if points may have no mesh: the `farthest` lies so many spacings of vertices off."""
+    if farthest <= FARTHEST:
+        return
+    why = "More `particles` show thinner parts."
+    if pieces_left_out:
+        some = "1 piece" if pieces_left_out == 1 else f"{pieces_left_out:,} pieces"
+        why = f"{some} of few faces left out: `min_component` 0 keeps such, more `vertices` show them."
+    yield (
+        f"A part may be missing: points lie up to {distances.max:.3g} from the mesh, {farthest:.1f} "
+        f"times as far as its vertices are apart. {why}"
+    )
 
 
 def compare(mesh: Mesh, prepared: Preparation, vertices: int) -> Comparison:
     """Compare a mesh of so many `vertices` with its points."""
     given, embedded = prepared.oriented.surface, prepared.surface
     distances, of_embedded = _distances(mesh, prepared)
-    diagonal = given.frame.diagonal
-    area = mesh_area(mesh.vertices_in_unit, mesh.faces)
-    vertex_spacing = float(np.sqrt(area / len(mesh.vertices_in_unit)))
+    diagonal, vertex_spacing = given.frame.diagonal, spacing_of_vertices(mesh)
     return Comparison(
         Distances.of(distances * diagonal, given.spacing * diagonal),
         agreement_of(mesh, embedded, vertices, of_embedded),
@@ -110,6 +114,11 @@ def compare(mesh: Mesh, prepared: Preparation, vertices: int) -> Comparison:
         HeightDifferences.of(height_differences(mesh, given, distances) * diagonal) if is_height_field(mesh) else None,
         int(mesh.statistics.get("dropped_components", 0)),
     )
+
+
+def spacing_of_vertices(mesh: Mesh) -> float:
+    """Return how far apart the vertices of a mesh are, in the unit frame: the side of the square that each has."""
+    return float(np.sqrt(mesh_area(mesh.vertices_in_unit, mesh.faces) / len(mesh.vertices_in_unit)))
 
 
 def _distances(mesh: Mesh, prepared: Preparation) -> tuple[NDArray[np.float64], NDArray[np.float64]]:

@@ -19,7 +19,7 @@ from hdpea.mesh.extraction import Mesh
 from hdpea.options import Options
 from hdpea.reading.streaming import PointStream
 from hdpea.report.cost import PEAK_BYTES, points_within
-from hdpea.report.measurement import mesh_facts, missed_targets
+from hdpea.report.measurement import mesh_facts, missed_targets, missing_part, spacing_of_vertices
 from hdpea.report.report import Journal, Report
 from hdpea.result import Reconstruction
 from hdpea.runtime.clock import Stage, StageClock
@@ -209,6 +209,9 @@ def _result(stream: PointStream, work: Work, journal: Journal) -> Reconstruction
     if estimated := journal.counts["normals_estimated"]:
         journal.notes.append(f"Normals of {estimated:,} points were estimated.")
     journal.notes += facts["notes"]
+    apart = spacing_of_vertices(mesh) * work.plan.frame.diagonal
+    farthest = error.points_to_mesh / apart if apart > 0 else 0.0
+    journal.notes += missing_part(distances, farthest, facts["statistics"].get("dropped_components", 0))
     journal.missed += missing_with_heaps(sum(each["in_heaps"] for each in tiles), work.plan.points)
     journal.missed += dict.fromkeys(why for each in tiles for why in each["missed"])
     journal.missed += [*missed_targets(mesh, found, work.options.meshing), *agreement.missed()]

@@ -158,6 +158,14 @@ def test_tiles_without_normals_agree_on_the_outside(tmp_path: Path) -> None:
     assert np.einsum("fc,fc->", corners[:, 0], np.cross(corners[:, 1], corners[:, 2])) > 0
 
 
+def test_a_part_that_is_missing_is_told(tmp_path: Path) -> None:
+    crumb = 0.01 * clouds.sphere(60)[0] + [0, 0, 1.0]
+    stream = stream_of_cloud(PointCloud(np.vstack([clouds.torus(POINTS)[0], crumb]), None, {}), "torus")
+    report = reconstruct_in_tiles(stream, Tiling(tmp_path / "a", 1e9, tile_points=TILE_POINTS)).report
+    assert report.mesh.components == 1
+    assert any("A part may be missing" in note for note in report.notes)
+
+
 @pytest.mark.parametrize("orient", ["auto", "viewpoint"])
 def test_tiles_know_their_sensors(tmp_path: Path, orient: Literal["auto", "viewpoint"]) -> None:
     points, outward = clouds.torus(POINTS)
