@@ -55,8 +55,10 @@ def denoised(
     method, choices = _method(options, roughness, oriented.estimated > 0)
     with core_errors_translated():
         # Noise as wide as the points are apart lifts points above others, too.
-        # And computed sides may be wrong where walls are thin.
-        told_apart = options.denoise == "auto" and roughness.noise <= ROUGH and not oriented.computed_sides
+        # And where walls are thin, sides may be wrong that were computed, or are those of estimated normals turned to
+        # their sensors.
+        sure = oriented.method == "file" or oriented.from_above
+        told_apart = options.denoise == "auto" and roughness.noise <= ROUGH and sure
         layered = told_apart and (oriented.doubled or have_layers(surface.points_in_unit, surface.normals))
         if layered and oriented.doubled:
             surface = replace(surface, normals=mean_normals(surface.points_in_unit, surface.normals))
