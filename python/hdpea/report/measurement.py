@@ -33,6 +33,9 @@ FARTHEST = 1.5
 Of the 20 validation meshes, 40,000 points each, it is 1.3 at most with 5,180 vertices and 0.7 with 1,500 and 500; of
 an animal that loses its tail, 2.6."""
 
+LEAST_TOLD = 0.001
+"""Share of the points without mesh that is told."""
+
 MOST_CUT = 0.03
 """Pairs of faces that cut each other, for each face, from which on a mesh is none of a surface.
 
@@ -84,20 +87,24 @@ class Comparison(NamedTuple):
 
     def missing_part(self) -> Iterator[str]:
         """Yield a sentence if a part of the points may have no mesh."""
-        yield from missing_part(self.distances, self.farthest, self.pieces_left_out)
+        yield from missing_part(self.distances, self.farthest, self.agreement.points_without_mesh, self.pieces_left_out)
 
 
-def missing_part(distances: Distances, farthest: float, pieces_left_out: int) -> Iterator[str]:
-    """Yield a sentence if points may have no mesh: the `farthest` lies so many spacings of vertices off."""
+def missing_part(distances: Distances, farthest: float, without: float, pieces_left_out: int) -> Iterator[str]:
+    """Yield a sentence if points may have no mesh: the `farthest` lies so many spacings of vertices off.
+
+    That share of them is `without` any near.
+    """
     if farthest <= FARTHEST:
         return
     why = "More `particles` show thinner parts."
     if pieces_left_out:
         some = "1 piece" if pieces_left_out == 1 else f"{pieces_left_out:,} pieces"
         why = f"{some} of few faces left out: `min_component` 0 keeps such, more `vertices` show them."
+    share = f"; {without:.1%} have none near" if without >= LEAST_TOLD else ""
     yield (
         f"A part may be missing: points lie up to {distances.max:.3g} from the mesh, {farthest:.1f} "
-        f"times as far as its vertices are apart. {why}"
+        f"times as far as its vertices are apart{share}. {why}"
     )
 
 

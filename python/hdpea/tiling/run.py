@@ -211,7 +211,8 @@ def _result(stream: PointStream, work: Work, journal: Journal) -> Reconstruction
     journal.notes += facts["notes"]
     apart = spacing_of_vertices(mesh) * work.plan.frame.diagonal
     farthest = error.points_to_mesh / apart if apart > 0 else 0.0
-    journal.notes += missing_part(distances, farthest, facts["statistics"].get("dropped_components", 0))
+    left_out = facts["statistics"].get("dropped_components", 0)
+    journal.notes += missing_part(distances, farthest, agreement.points_without_mesh, left_out)
     journal.missed += missing_with_heaps(sum(each["in_heaps"] for each in tiles), work.plan.points)
     journal.missed += dict.fromkeys(why for each in tiles for why in each["missed"])
     journal.missed += [*missed_targets(mesh, found, work.options.meshing), *agreement.missed()]

@@ -102,5 +102,7 @@ def test_summary_does_not_hide_a_bad_mesh() -> None:
 def test_a_part_without_mesh_is_told(farthest: float, told: bool) -> None:
     compared = Comparison(Distances.of(np.array([0.0, 4.0]), spacing=0.5), Agreement(0.0, 0.0), farthest, np.zeros(2))
     assert any("A part may be missing: points lie up to 4" in line for line in compared.missing_part()) == told
-    (said,) = compared._replace(farthest=3.0, pieces_left_out=9).missing_part()
+    lacking = compared._replace(farthest=3.0, agreement=Agreement(0.055, 0.0), pieces_left_out=9)
+    (said,) = lacking.missing_part()
+    assert "3.0 times as far as its vertices are apart; 5.5% have none near." in said
     assert "9 pieces of few faces left out: `min_component` 0 keeps such" in said
