@@ -10,7 +10,7 @@ from typing import Any
 import click
 
 from hdpea.cli.destinations import require_no_scan
-from hdpea.cli.groups import GroupedCommand, GroupedOption
+from hdpea.cli.groups import GroupedCommand, GroupedOption, in_flags
 from hdpea.cli.parameters import force_option, quiet_option, setting_options
 from hdpea.cli.types import PATH
 from hdpea.curvature.options import NORMAL_NEIGHBORS_HELP, CurvatureOptions
@@ -105,7 +105,7 @@ def command(
     if not quiet:
         from hdpea.curvature.summary import summarize
 
-        click.echo("\n".join(summarize(tensors)), err=True)
+        click.echo(in_flags("\n".join(summarize(tensors))), err=True)
 
 
 def _check_outputs(output: Path, picture: Path | None, page: Path | None) -> None:

@@ -12,7 +12,7 @@ import click
 
 from hdpea.cli.config import config_of, config_option
 from hdpea.cli.destinations import require_no_scan
-from hdpea.cli.groups import GroupedCommand, GroupedOption
+from hdpea.cli.groups import GroupedCommand, GroupedOption, in_flags
 from hdpea.cli.parameters import chosen_options, force_option, quiet_option, setting_options
 from hdpea.cli.types import PATH
 
@@ -70,4 +70,4 @@ def command(
     if not quiet:
         from hdpea.report.summary import describe
 
-        click.echo("\n".join([*map(describe, embedding.choices), *embedding.notes]), err=True)
+        click.echo("\n".join([*map(describe, embedding.choices), *map(in_flags, embedding.notes)]), err=True)

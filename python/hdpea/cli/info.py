@@ -71,6 +71,7 @@ def _as_json(facts: CloudFacts, resources: Resources) -> str:
 
 def _describe(facts: CloudFacts, resources: Resources) -> str:
     from hdpea.cli.needs import needs
+    from hdpea.cli.reconstruct import command as reconstruct
 
     extent = [high - low for low, high in zip(facts.low, facts.high, strict=True)]
     rows = {
@@ -86,7 +87,8 @@ def _describe(facts: CloudFacts, resources: Resources) -> str:
         "crs": crs_name(facts.crs),
         "a run needs": needs(facts, resources),
     }
-    return "\n".join([*(f"{name:<12}{value}" for name, value in rows.items() if value), *facts.notes])
+    notes = map(reconstruct.in_flags, facts.notes)
+    return "\n".join([*(f"{name:<12}{value}" for name, value in rows.items() if value), *notes])
 
 
 MOST_CLASSES = 12

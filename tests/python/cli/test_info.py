@@ -56,6 +56,16 @@ def test_info_says_what_a_run_would_leave_out(scan_with_strays: str, capsys: Cap
     assert "lie on no surface" in told
 
 
+@pytest.mark.parametrize("command", ["info", "embed", "curvature"])
+def test_notes_name_flags(command: str, tmp_path: Path, capsys: Capture) -> None:
+    sphere = sphere_points(4000)
+    np.savetxt(tmp_path / "room.xyz", sphere / (abs(sphere) / [6, 5, 2]).max(axis=1, keepdims=True))
+    output = [] if command == "info" else [str(tmp_path / "out.npz" if command == "embed" else tmp_path / "out.ply")]
+    assert run([command, str(tmp_path / "room.xyz"), *output]) == 0
+    told = capsys.readouterr()
+    assert "say so: --orient viewpoint, --viewpoint 0,0,0." in told.out + told.err
+
+
 def test_info_says_that_points_are_too_few(tmp_path: Path, capsys: Capture) -> None:
     np.savetxt(tmp_path / "scan.xyz", sphere_points(15))
     assert run(["info", str(tmp_path / "scan.xyz")]) == 0
