@@ -28,12 +28,11 @@ KERNEL_WIDTH = 0.28
 AREA_DISK_RADIUS = 2.0
 """Radius of the disks that measure the area, in mean distances of the seeds: large enough to hold their cells."""
 
-MOST_AREA = 256.0
-"""Most that a seed's cell counts for, in medians.
+MOST_AREA = 16.0
+"""Most that a seed's cell counts for, in medians: even ones have no larger disks.
 
 That of a thing so small that one seed is all of it reaches to the next thing: sixty points, thirty diagonals away, made
-the particles of all others leave their places. Flying pixels have some hundreds, too, and of noisy depth frames these
-widen the kernel by a fifth: with at most 16, which is what even seeds have, their meshes were 2 % farther off."""
+the particles of all others leave their places. Flying pixels have some hundreds, too."""
 
 INTERACTIONS = 16
 """Particles that push each particle; the kernel is negligible beyond."""
