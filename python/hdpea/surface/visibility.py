@@ -32,10 +32,11 @@ STEPS = 200
 """Most steps along a line."""
 
 MOST_HIDDEN = 0.25
-"""Share of the lines with points on them from which on sensors cannot have been there.
+"""Share of the lines with points on them from which on it is doubtful that sensors were there.
 
-Of ten scans of rooms, streets, desks and terrain, by rays, it is 2 % at most. Of a complete model whose file names one
-sensor for all points, those of another frame, or each the sensor of another, it is 36 to 71 %."""
+Of ten scans of rooms, streets, desks and terrain, by rays, it is 2 % at most, of hedges and tree tops, through which
+sensors do see, 17 to 34 %. Of complete models whose file names one sensor for all points, those of another frame, or
+each the sensor of another, it is 28 to 68 %."""
 
 
 def share_hidden(points: Vectors, directions: Vectors, sensors: Vectors) -> float:
@@ -52,7 +53,8 @@ def share_hidden(points: Vectors, directions: Vectors, sensors: Vectors) -> floa
     if not len(rows):
         return 0.0
     starts, lines = points[rows], towards_of(points[rows], sensors[rows])
-    ends = np.minimum(np.linalg.norm(sensors[rows] - starts, axis=1), np.linalg.norm(np.ptp(thinned, axis=0)))
+    with np.errstate(over="ignore"):  # as far as the cloud is wide will do
+        ends = np.minimum(np.linalg.norm(sensors[rows] - starts, axis=1), np.linalg.norm(np.ptp(thinned, axis=0)))
     along = START * spacings[_core.nearest_neighbors(thinned, np.ascontiguousarray(starts), 1)[:, 0]]
     between = BETWEEN * np.minimum(spacings, np.median(spacings))
     hidden, open_lines = np.zeros(len(rows), dtype=bool), np.arange(len(rows))

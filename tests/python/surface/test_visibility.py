@@ -59,6 +59,11 @@ def test_sensors_that_saw_the_points_count() -> None:
         assert found.method == "viewpoint"
 
 
+@pytest.mark.filterwarnings("error")
+def test_a_sensor_may_be_very_far_away() -> None:
+    assert seen(sphere_points(1000), np.array([1e200, 0, 0])).sensors_refused
+
+
 def test_a_scanner_within_saw_what_surrounds_it() -> None:
     points, normals = peanut()
     found = seen(points, np.array([0.5, 0, 0]))
