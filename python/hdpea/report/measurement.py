@@ -112,20 +112,21 @@ def compare(mesh: Mesh, prepared: Preparation, vertices: int) -> Comparison:
     """Compare a mesh of so many `vertices` with its points."""
     given, embedded = prepared.oriented.surface, prepared.surface
     distances, of_embedded = _distances(mesh, prepared)
-    diagonal, vertex_spacing = given.frame.diagonal, spacing_of_vertices(mesh)
+    diagonal = given.frame.diagonal
     return Comparison(
         Distances.of(distances * diagonal, given.spacing * diagonal),
         agreement_of(mesh, embedded, vertices, of_embedded),
-        float(of_embedded.max()) / vertex_spacing if vertex_spacing > 0 else 0.0,
+        in_spacings_of_vertices(float(of_embedded.max()), mesh),
         of_embedded,
         HeightDifferences.of(height_differences(mesh, given, distances) * diagonal) if is_height_field(mesh) else None,
         int(mesh.statistics.get("dropped_components", 0)),
     )
 
 
-def spacing_of_vertices(mesh: Mesh) -> float:
-    """Return how far apart the vertices of a mesh are, in the unit frame: the side of the square that each has."""
-    return float(np.sqrt(mesh_area(mesh.vertices_in_unit, mesh.faces) / len(mesh.vertices_in_unit)))
+def in_spacings_of_vertices(distance: float, mesh: Mesh) -> float:
+    """Return a distance, in the unit frame, in sides of the square that each vertex of a mesh has; 0 of no area."""
+    apart = float(np.sqrt(mesh_area(mesh.vertices_in_unit, mesh.faces) / len(mesh.vertices_in_unit)))
+    return distance / apart if apart > 0 else 0.0
 
 
 def _distances(mesh: Mesh, prepared: Preparation) -> tuple[NDArray[np.float64], NDArray[np.float64]]:

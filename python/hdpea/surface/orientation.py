@@ -90,8 +90,8 @@ def _by_best_method(
     if signs is not None and signs.trusted:
         why = f"{signs.consistency:.0%} of neighbours agree on the side"
         return Orientation(by_file(points, directions, evidence), "file", why)
-    if evidence.sensors is not None and (other := _if_hidden(points, directions, evidence, progress)) is not None:
-        return other
+    if (without_sensors := _if_hidden(points, directions, evidence, progress)) is not None:
+        return without_sensors
     view = _view(points, directions, evidence)
     # A ball on the ground may be so small a share of the points that all seem to be a height field.
     if parts and not (view is not None and (view.from_one_place or evidence.sensors is not None)):

@@ -163,12 +163,12 @@ def _layered(
     rows, others = rows[clear], others[clear]
     offsets = points[others] - points[rows]
     heights = np.stack([np.einsum("nc,nc->n", offsets, directions[ends]) for ends in (rows, others)])
-    apart = abs(heights).min(axis=0) / _spacings(points, rows)
+    apart = abs(heights).min(axis=0) / spacings_around(points, rows)
     layered = apart > max(APART, DEVIATIONS_APART * noise)
     return float((layered & (apart <= DOUBLED)).mean()), float((layered & (apart > DOUBLED)).mean())
 
 
-def _spacings(points: Vectors, rows: NDArray[np.int64]) -> Vectors:
+def spacings_around(points: Vectors, rows: NDArray[np.int64]) -> Vectors:
     """Return the spacing of the points (n, 3) around each of those of the `rows` (m,)."""
     count = min(SPACING_NEIGHBORS, len(points) - 1)
     around = points[_core.nearest_neighbors(points, np.ascontiguousarray(points[rows]), count + 1)]

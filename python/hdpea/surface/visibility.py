@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from hdpea import _core
 from hdpea.geometry.thinning import rows_along
-from hdpea.surface.single_view import towards_of
+from hdpea.surface.single_view import spacings_around, towards_of
 
 Vectors = NDArray[np.float64]
 
@@ -17,9 +17,6 @@ LINES, THINNED = 500, 20_000
 
 CLEAR = 0.5
 """Least cosine between normal and line of sight at which it soon leaves the surface that it starts on."""
-
-NEAREST = 16
-"""Nearest points that the spacing around a point is measured by."""
 
 START, BETWEEN = 4.0, 0.6
 """From how many spacings on points are looked for, which layers of scans are not apart, and how near a line one lies
@@ -46,8 +43,7 @@ def share_hidden(points: Vectors, directions: Vectors, sensors: Vectors) -> floa
     "Sphere tracing", 1996). The signs of the `directions` (n, 3) of normals do not matter.
     """
     thinned = np.ascontiguousarray(points[rows_along(len(points), THINNED)])
-    around = _core.nearest_neighbors(thinned, thinned, min(NEAREST + 1, len(thinned)))
-    spacings = np.linalg.norm(thinned[around[:, -1]] - thinned, axis=1) * np.sqrt(np.pi / NEAREST)
+    spacings = spacings_around(thinned, np.arange(len(thinned)))
     rows = rows_along(len(points), LINES)
     rows = rows[abs(np.einsum("nc,nc->n", towards_of(points[rows], sensors[rows]), directions[rows])) > CLEAR]
     if not len(rows):

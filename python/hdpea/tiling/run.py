@@ -19,7 +19,7 @@ from hdpea.mesh.extraction import Mesh
 from hdpea.options import Options
 from hdpea.reading.streaming import PointStream
 from hdpea.report.cost import PEAK_BYTES, points_within
-from hdpea.report.measurement import mesh_facts, missed_targets, missing_part, spacing_of_vertices
+from hdpea.report.measurement import in_spacings_of_vertices, mesh_facts, missed_targets, missing_part
 from hdpea.report.report import Journal, Report
 from hdpea.result import Reconstruction
 from hdpea.runtime.clock import Stage, StageClock
@@ -209,8 +209,7 @@ def _result(stream: PointStream, work: Work, journal: Journal) -> Reconstruction
     if estimated := journal.counts["normals_estimated"]:
         journal.notes.append(f"Normals of {estimated:,} points were estimated.")
     journal.notes += facts["notes"]
-    apart = spacing_of_vertices(mesh) * work.plan.frame.diagonal
-    farthest = error.points_to_mesh / apart if apart > 0 else 0.0
+    farthest = in_spacings_of_vertices(error.points_to_mesh / work.plan.frame.diagonal, mesh)
     left_out = facts["statistics"].get("dropped_components", 0)
     journal.notes += missing_part(distances, farthest, agreement.points_without_mesh, left_out)
     journal.missed += missing_with_heaps(sum(each["in_heaps"] for each in tiles), work.plan.points)

@@ -10,11 +10,10 @@ struct RefinementOptions {
   Index rounds = 2;         ///< rounds of projection and fitting; 0 leaves the mesh as it is
   double pull = 0.01;       ///< weight of staying, as a share of the points per vertex, > 0
   double min_cosine = 0.3;  ///< points whose normal agrees less with their face's belong to another sheet
-  double max_distance =
-      4;                  ///< farther points, in sizes of the faces around their face's corners, are of what is missing
-  double max_gap = 0.5;   ///< how far from the points a vertex may move, in sizes of its faces, sqrt(2 area)
-  double max_turn = 60;   ///< degrees a face may turn in one round
-  double min_area = 0.2;  ///< share of its area that a face keeps in one round
+  double max_distance = 4;  ///< points farther off, in sizes of the faces there, are of what is missing
+  double max_gap = 0.5;     ///< how far from the points a vertex may move, in sizes of its faces, sqrt(2 area)
+  double max_turn = 60;     ///< degrees a face may turn in one round
+  double min_area = 0.2;    ///< share of its area that a face keeps in one round
 
   /// Where an error is to be kept, nothing is to be even: vertices stay less, and faces come nearer to the points.
   static RefinementOptions within_error() { return {.pull = 0.005}; }
