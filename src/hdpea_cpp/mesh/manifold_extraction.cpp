@@ -201,22 +201,26 @@ ExtractedMesh Extractor::finish() {
   Index largest = 0;
   for (Index f = 0; f < face_count; ++f) largest = std::max(largest, mesh_.piece_size(f));
   const Index least = std::min(options_.min_component_faces, largest);
-  std::vector<Triangle> kept;
-  std::vector<bool> against;
+  std::vector<bool> turned(mesh_.triangles().size()), against(turned.size());
   for (Index f = 0; f < face_count; ++f) {
     const auto [representative, flipped] = mesh_.piece_of(f);
+    turned[f] = flipped != (outward_[representative] < 0);
+    against[f] = (shape_.outwardness(mesh_.triangles()[f]) < 0) != turned[f];
+  }
+  const HangingPatches hanging = find_hanging_patches(mesh_, against, least);
+  counts_.turned_patches = hanging.count;
+  std::vector<Triangle> kept;
+  for (Index f = 0; f < face_count; ++f) {
     if (mesh_.piece_size(f) < least) {
       ++counts_.dropped_faces;
-      counts_.dropped_components += representative == f;
+      counts_.dropped_components += mesh_.piece_of(f).first == f;
       continue;
     }
+    if (hanging.cut[f]) continue;
     Triangle triangle = mesh_.triangles()[f];
-    const bool turned = flipped != (outward_[representative] < 0);
-    against.push_back((shape_.outwardness(triangle) < 0) != turned);
-    if (turned) std::swap(triangle[1], triangle[2]);
+    if (turned[f] != hanging.turned[f]) std::swap(triangle[1], triangle[2]);
     kept.push_back(triangle);
   }
-  counts_.turned_patches = turn_hanging_patches(kept, against, least);
   // They were inserted in the order of their radii, which rounding (a cloud in other units) may change.
   std::sort(kept.begin(), kept.end());
   ExtractedMesh extracted;

@@ -53,6 +53,23 @@ MeshCheck check_of(const std::vector<Triangle>& triangles) {
   return check_mesh(Points::Random(sources.size(), 3), faces);
 }
 
+/// Turns the patches of oriented faces that hang on the rest, and takes the faces at the necks away.
+Index turn_hanging_patches(std::vector<Triangle>& faces, const std::vector<bool>& against, Index least_faces) {
+  IncrementalManifold mesh(2 * kSide * kSide);
+  for (Triangle face : faces) {
+    std::sort(face.begin(), face.end());
+    mesh.insert(face);
+  }
+  const HangingPatches found = find_hanging_patches(mesh, against, least_faces);
+  std::vector<Triangle> kept;
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    if (found.turned[f]) std::swap(faces[f][1], faces[f][2]);
+    if (!found.cut[f]) kept.push_back(faces[f]);
+  }
+  faces = kept;
+  return found.count;
+}
+
 TEST(ContraryPatches, APatchThatHangsByANeckIsCutOffAndTurned) {
   std::vector<Triangle> faces = joined_squares(2);
   const std::vector<Triangle> before = faces;
