@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 from hdpea import _core
 from hdpea.frontend.scattered import scattered
+from hdpea.frontend.sheets import strays_in_sheets
 from hdpea.frontend.standing import Standing
 from hdpea.geometry.thinning import rows_along
 from hdpea.runtime.blocks import in_blocks
@@ -52,20 +53,6 @@ They are the other side of a thin wall, of which the nearest twelve may have non
 FARTHER_FROM_LINES = 4.0
 """How many times farther, of points on lines: those that the last line crosses a corner by lie twice as far apart."""
 
-SHEET_POINTS, FLAT = 16, 0.1
-"""Nearest points with which a point lies in a sheet, and the ratio of their deviations across and along, the lesser of
-the two, up to which they do: of 3,600 strays in the boxes of 20 models 14 come to it, one by one."""
-
-SHEET, SHEET_COMPANY = 10, 2
-"""Of these nearest points how many must be no strays themselves, and how many be taken back with it.
-
-Sheets that are sparser than what they border on come back, 382 of the 8,075 points of CGAL's point_set_3, and none of
-200 strays around each of 40 models."""
-
-NEXT_TO = 8
-"""Nearest points among which one in a sheet has its next, on the way to what is no stray: heaps far from everything are
-strays. The overseas post offices of CGAL's poste_france would get nearly all of its vertices."""
-
 ROUNDS = 20
 """Most rounds: each lays open what hid behind the strays of the one before, and most clouds are settled after five."""
 
@@ -103,7 +90,7 @@ def find_strays(points: NDArray[np.float64], nearest: NDArray[np.int64], on_line
         rows = standing.drop(found)
     strays = ~standing.left
     if planar:
-        strays[_in_sheets(points, strays)] = False
+        strays[strays_in_sheets(points, nearest, strays)] = False
     return strays
 
 
@@ -150,37 +137,6 @@ def _around(
         return np.asarray(np.quantile(values[standing.nearest[rows[block], :count]], SURROUNDINGS, axis=1))
 
     return in_blocks(quantiles, len(rows))
-
-
-def _in_sheets(points: NDArray[np.float64], strays: NDArray[np.bool_]) -> NDArray[np.int64]:
-    """Return which of the strays lie in a flat sheet of points (n, 3) that are none, or come back with them."""
-    rows = np.flatnonzero(strays)
-    if len(rows) <= SHEET_COMPANY:
-        return rows[:0]
-    nearest = _core.nearest_neighbors(points, np.ascontiguousarray(points[rows]), SHEET_POINTS + 1)  # with the point
-    around = points[nearest] - points[nearest].mean(axis=1, keepdims=True)
-    variances = np.linalg.eigvalsh(around.swapaxes(1, 2) @ around).clip(min=0)
-    back = np.zeros(len(points), dtype=bool)
-    back[rows] = variances[:, 0] < FLAT**2 * variances[:, 1]
-    while True:
-        among = back[nearest].sum(axis=1) - 1
-        held = back[rows] & ((~strays | back)[nearest].sum(axis=1) - 1 >= SHEET) & (among >= SHEET_COMPANY)
-        held &= _border_on(~strays, rows, nearest[:, 1 : NEXT_TO + 1], held)
-        if held.sum() == back.sum():
-            return np.asarray(rows[held])
-        back[rows] = held
-
-
-def _border_on(
-    kept: NDArray[np.bool_], rows: NDArray[np.int64], nearest: NDArray[np.int64], chosen: NDArray[np.bool_]
-) -> NDArray[np.bool_]:
-    """Return which of the `rows` (m,), `chosen` (m,) among them, lead to `kept` points (n,) from nearest to nearest."""
-    led = kept.copy()
-    while True:
-        found = chosen & led[nearest].any(axis=1)
-        if found.sum() == led[rows].sum():
-            return np.asarray(found)
-        led[rows] = found
 
 
 def _show_planes(standing: Standing) -> bool:

@@ -100,6 +100,19 @@ def test_a_sheet_far_sparser_than_what_it_borders_on_is_kept() -> None:
     assert found[: -len(strays)].sum() <= 10  # at the rim; without a look at sheets, 100
 
 
+def test_the_far_side_of_a_thin_wall_is_kept_where_it_was_seen_at_a_slant() -> None:
+    random, thickness = np.random.default_rng(3), 0.05
+    near, far = random.random((10_000, 3)) * [2, 1, 0], random.random((5000, 3)) * [1, 1, 0] - [0, 0, thickness]
+    slant = random.random((833, 3)) * [1, 1, 0] + [1, 0, -thickness]
+    wall = np.vstack([near, far, slant]) + random.normal(0, 0.001, (15_833, 3))
+    strays = random.uniform(-0.5, 0.5, (200, 3)) * [3, 2, 2] + [1, 0.5, 0]
+    strays = strays[abs(strays[:, 2]) > 0.12]
+    found = classify(np.vstack([wall, strays])).strays
+    assert found[-len(strays) :].all()
+    assert found[:15_000].sum() <= 2
+    assert found[15_000:15_833].sum() <= 80  # 408, where strays are not held against each other
+
+
 def test_a_sheet_far_from_everything_is_dropped() -> None:
     random = np.random.default_rng(3)
     dense, far = random.random((6000, 3)) * [1, 1, 0], random.random((40, 3)) * [30, 30, 0] + [60, 0, 0]
