@@ -53,7 +53,9 @@ def _of_all(
     most = FAVOURED * (1 - agreed["mst"]) + CHANCE
     best, other = ("wnnc", "mst") if 1 - agreed["wnnc"] <= most else ("mst", "wnnc")
     why = f"{agreed[best]:.2%} of neighbours agree on the side, by {other} {agreed[other]:.2%}"
-    return Orientation(candidates[best], best, why)
+    # What was seen through an opening touches nothing that it could agree with.
+    normals = _core.turn_contrary_pieces(points, candidates[best], evidence.neighbors)
+    return Orientation(normals, best, why)
 
 
 def _of_deciding_points(

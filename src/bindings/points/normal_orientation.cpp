@@ -2,6 +2,7 @@
 #include "hdpea_cpp/points/normal_orientation.hpp"
 
 #include "bindings/bindings.hpp"
+#include "hdpea_cpp/points/contrary_pieces.hpp"
 
 void register_normal_orientation(nb::module_& module) {
   module.def("orient_normals", &hdpea::orient_normals, "points"_a, "normals"_a, "neighbors"_a,
@@ -14,6 +15,8 @@ void register_normal_orientation(nb::module_& module) {
       },
       "points"_a, "normals"_a, "neighbors"_a, ReleaseGil(),
       "Give each piece of the surface the sides that most of its normals (n, 3) have.");
+  module.def("turn_contrary_pieces", &hdpea::turn_contrary_pieces, "points"_a, "normals"_a, "neighbors"_a, ReleaseGil(),
+             "Turn pieces of the surface whose normals (n, 3) the winding number of all others contradicts.");
   module.def("orientation_consistency", &hdpea::orientation_consistency, "points"_a, "normals"_a, "neighbors"_a,
              ReleaseGil(), "Share of neighbours whose signs agree: 1 for oriented normals, 0.5 for random signs.");
 }

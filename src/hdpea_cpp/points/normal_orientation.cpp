@@ -10,16 +10,10 @@
 #include "hdpea_cpp/base/checks.hpp"
 #include "hdpea_cpp/base/errors.hpp"
 #include "hdpea_cpp/base/signed_sets.hpp"
+#include "hdpea_cpp/points/carried_normals.hpp"
 
 namespace hdpea {
 namespace {
-
-/// n_i . n_j after n_i is carried along the arc from p_i to p_j.
-double carried_cosine(const PointsRef& points, const PointsRef& normals, Index i, Index j) {
-  const Eigen::RowVector3d edge = (points.row(j) - points.row(i)).stableNormalized();
-  const Eigen::RowVector3d normal = normals.row(i);
-  return (normal - 2 * normal.dot(edge) * edge).dot(normals.row(j));
-}
 
 struct Edge {
   double cost;
@@ -37,21 +31,6 @@ std::vector<Edge> sorted_edges(const PointsRef& points, const PointsRef& normals
   }
   std::sort(edges.begin(), edges.end());
   return edges;
-}
-
-/// (n) area that each point stands for, to scale: that out to its farthest neighbour. Of few points far from all
-/// others, which may be strays, no more than `most_of_median` times the usual.
-Eigen::VectorXd areas_of(const PointsRef& points, const NeighborsRef& neighbors, double most_of_median = 8) {
-  Eigen::VectorXd areas = Eigen::VectorXd::Zero(points.rows());
-  for (Index i = 0; i < neighbors.rows(); ++i) {
-    for (Index j : neighbors.row(i)) {
-      if (j >= 0) areas(i) = std::max(areas(i), (points.row(j) - points.row(i)).squaredNorm());
-    }
-  }
-  if (areas.size() == 0) return areas;
-  Eigen::VectorXd sorted = areas;
-  std::nth_element(sorted.begin(), sorted.begin() + sorted.size() / 2, sorted.end());
-  return areas.cwiseMin(most_of_median * sorted(sorted.size() / 2));
 }
 
 /// What is summed over a piece of the surface to find the side it faces.
@@ -74,7 +53,7 @@ struct Sums {
 /// Whether each piece (by its representative) faces inwards, by all its points.
 std::vector<char> face_inwards(const PointsRef& points, const Points& normals, const NeighborsRef& neighbors,
                                const std::vector<Index>& piece) {
-  const Eigen::VectorXd areas = areas_of(points, neighbors);
+  const Eigen::VectorXd areas = neighborhood_areas(points, neighbors);
   const Eigen::RowVector3d middle = points.colwise().mean();
   std::vector<Sums> sums(piece.size());
   for (Index i = 0; i < points.rows(); ++i) {
