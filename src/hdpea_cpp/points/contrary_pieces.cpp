@@ -46,6 +46,7 @@ std::vector<Piece> smaller_pieces(const PointsRef& points, const PointsRef& norm
 /// How the winding number falls along the normals of a piece's samples, to scale.
 struct Falls {
   Eigen::MatrixXd by_piece;  ///< (s, pieces + 1): that of each piece by itself, and of all that is in none
+  double points = 0;         ///< of the piece
   double size = 0;           ///< the sum of the sizes of all terms of other pieces
 };
 
@@ -59,8 +60,8 @@ class Field {
         piece_of_(static_cast<std::size_t>(points.rows()), static_cast<Index>(pieces.size())) {
     const Eigen::VectorXd areas = neighborhood_areas(points, neighbors);
     moments_ = normals.array().colwise() * areas.array();
-    // As wide as a neighbourhood: nearer to a point than its neighbours, the sum is no field of a surface.
-    squared_width_ = areas.mean();
+    // Half as wide as a neighbourhood. Less, and single points show; more, and walls have no sides.
+    squared_width_ = areas.mean() / 4;
     const auto count = static_cast<Index>(pieces.size());
     for (Index p = 0; p < count; ++p) {
       for (Index i : pieces[p]) piece_of_[i] = p;
@@ -68,20 +69,21 @@ class Field {
     for (const Piece& piece : pieces) falls_.push_back(falls_along(piece, count + 1));
   }
 
-  /// Share of the samples of a piece where the winding number of all others rises, if these have the given signs; 0 if
-  /// it hardly does.
+  /// How much the winding number of all others rises along the normals of a piece, if these have the given signs; 0
+  /// where it hardly does, or not at most samples.
   double contradiction(std::size_t piece, const Eigen::VectorXd& signs) const {
     Eigen::VectorXd others = signs;
     others[static_cast<Index>(piece)] = 0;
     const Eigen::ArrayXd fall = signs[static_cast<Index>(piece)] * (falls_[piece].by_piece * others).array();
-    return fall.sum() < -least_rise * falls_[piece].size ? (fall < 0).cast<double>().mean() : 0;
+    const bool rises = fall.sum() < -least_rise * falls_[piece].size && (fall < 0).cast<double>().mean() > contrary;
+    return rises ? -fall.mean() * falls_[piece].points : 0;
   }
 
  private:
   Falls falls_along(const Piece& piece, Index columns) const {
     const std::size_t step = (piece.size() + most_samples - 1) / most_samples;
     const auto samples = static_cast<Index>((piece.size() + step - 1) / step);
-    Falls falls{Eigen::MatrixXd::Zero(samples, columns)};
+    Falls falls{Eigen::MatrixXd::Zero(samples, columns), static_cast<double>(piece.size())};
     Eigen::VectorXd sizes = Eigen::VectorXd::Zero(samples);
     parallel_for(
         samples,
@@ -126,7 +128,7 @@ Points turn_contrary_pieces(const PointsRef& points, const PointsRef& normals, c
   // Each turn changes what others are told; none is turned back.
   for (std::size_t round = 0; round < pieces.size(); ++round) {
     std::size_t most_contrary = pieces.size();
-    double most = contrary;
+    double most = 0;
     for (std::size_t p = 0; p < pieces.size(); ++p) {
       if (signs[static_cast<Index>(p)] < 0) continue;
       const double contradiction = field.contradiction(p, signs);

@@ -11,7 +11,7 @@ namespace hdpea {
 /// seen through an opening touches nothing else. The winding number falls from the inside to the outside, also that of
 /// the rest of the surface alone, and so along the normals of every piece of it (Metzer et al., "Orienting point clouds
 /// with dipole propagation", 2021, with pieces for patches). Where it rises at most samples of a piece, this is turned,
-/// the most contrary first. The largest stays.
+/// that first along which it rises most. The largest stays.
 ///
 /// @param points     (n, 3), finite
 /// @param normals    (n, 3) unit, mostly oriented

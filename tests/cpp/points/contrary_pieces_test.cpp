@@ -24,7 +24,7 @@ clouds::Cloud below(const clouds::Cloud& cloud, double height) {
 /// A thick bowl, of which the inside was seen at its bottom alone: nothing joins it to the outside.
 struct Bowl {
   clouds::Cloud outside = below(clouds::sphere(4000), 0);
-  clouds::Cloud bottom = clouds::flipped(below(clouds::sphere(2500, 0.8), -0.4));
+  clouds::Cloud bottom = clouds::flipped(below(clouds::sphere(2500, 0.65), -0.3));
   clouds::Cloud all = clouds::joined(outside, bottom);
   Neighbors neighbors = nearest_neighbors(all.points, 12);
 };
@@ -43,7 +43,7 @@ TEST(ContraryPieces, AreNotThoseThatAgree) {
 
 TEST(ContraryPieces, ThatAreTinyStay) {
   Bowl bowl;
-  bowl.bottom = clouds::flipped(below(clouds::sphere(2500, 0.8), -0.79));
+  bowl.bottom = clouds::flipped(below(clouds::sphere(2500, 0.65), -0.64));
   ASSERT_LT(bowl.bottom.points.rows(), 24);
   const clouds::Cloud wrong = clouds::joined(bowl.outside, clouds::flipped(bowl.bottom));
   EXPECT_EQ(turn_contrary_pieces(wrong.points, wrong.normals, nearest_neighbors(wrong.points, 12)), wrong.normals);
