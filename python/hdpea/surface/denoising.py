@@ -56,8 +56,8 @@ def denoised(
     with core_errors_translated():
         # Noise as wide as the points are apart lifts points above others, too.
         # And where walls are thin, sides may be wrong that were computed, or are those of estimated normals turned to
-        # their sensors.
-        sure = oriented.method == "file" or oriented.from_above
+        # their sensors. Trees are no second scan of the ground below.
+        sure = oriented.method == "file" or (oriented.from_above and not oriented.overhung)
         told_apart = options.denoise == "auto" and roughness.noise <= ROUGH and sure
         layered = told_apart and (oriented.doubled or have_layers(surface.points_in_unit, surface.normals))
         if layered and oriented.doubled:

@@ -86,6 +86,11 @@ class OrientedSurface:
         return self.view is not None and self.view.from_above
 
     @property
+    def overhung(self) -> bool:
+        """Whether trees and the like are above parts of that height field."""
+        return self.view is not None and self.view.overhung
+
+    @property
     def computed_sides(self) -> bool:
         """Whether nothing but the points decided which side is out, neither the file nor where they were seen from."""
         return self.method in {"wnnc", "mst"}

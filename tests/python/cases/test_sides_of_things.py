@@ -6,7 +6,14 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from helpers.clouds import sphere_points
-from helpers.raw_clouds import ball_on_a_floor, box_on_a_table, land_with_a_cliff, lidar_frame, table_from_above
+from helpers.raw_clouds import (
+    ball_on_a_floor,
+    box_on_a_table,
+    land_with_a_cliff,
+    land_with_trees,
+    lidar_frame,
+    table_from_above,
+)
 from helpers.raw_meshes import BALL, middles, says_it_is_a_guess, share_against
 from helpers.reconstructions import area_vectors, volume
 
@@ -61,6 +68,14 @@ def test_what_a_lidar_sees_around_it_faces_it(rings: int) -> None:
     made = reconstruct(lidar_frame(rings))
     assert share_against(made, -middles(made)) < 0.03
     assert not says_it_is_a_guess(made)
+
+
+def test_land_faces_up_though_a_laser_went_through_its_trees() -> None:
+    made = reconstruct(land_with_trees(8_000))
+    assert share_against(made, UP) < 0.1  # the trees from below; 0.8 where what is closed decides
+    assert not says_it_is_a_guess(made)
+    # Crowns are not drawn down to the ground.
+    assert made.vertices[:, 2].max() > 9
 
 
 def test_closed_legs_of_a_table_seen_from_above_face_out() -> None:

@@ -132,6 +132,21 @@ def land_with_a_cliff(step: float) -> Array:
     return np.column_stack([u, v, 5 * np.sin(u / 25) + 3 * np.cos(v / 18) + CLIFF * plateau])
 
 
+def land_with_trees(count: int) -> Array:
+    """Return land, a house with a flat roof, and round trees, below which as many points are of the ground."""
+    random = np.random.default_rng(0)
+    u, v = random.random((2, count)) * [[100.0], [80.0]]
+    land = np.column_stack([u, v, 2 * np.sin(u / 20) + np.cos(v / 15)])
+    land[(abs(u - 30) < 12) & (abs(v - 40) < 9), 2] = 12
+    spots = np.array([[60, 15], [70, 30], [62, 50], [75, 65], [88, 20], [90, 45], [90, 70], [10, 70], [10, 10]])
+    crowns = [
+        [x, y, 7] + [6, 6, 4] * sphere_points(200, seed) * random.uniform(0.7, 1, (200, 1))
+        for seed, (x, y) in enumerate(spots)
+    ]
+    shown = [crown[crown[:, 2] > 6] for crown in crowns]
+    return np.vstack([land, *shown]) + random.normal(0, 0.03, (count + sum(map(len, shown)), 3))
+
+
 def box_on_a_table(count: int) -> Array:
     """Return a unit cube without its bottom on a square of side 4, with a fifth of a spacing of noise."""
     random, spacing = np.random.default_rng(0), 4 * count**-0.5
