@@ -30,8 +30,8 @@ class NormalOptions(Checked):
         "auto",
         "which side is out. auto: the file's normals say where neighbours agree, else its sensors, else the place that "
         "all was seen from, if points are even as seen from the origin, or nothing lies behind anything else from "
-        "there or from above, else wnnc or mst, by which more neighbours agree; wnnc: by the winding number, for "
-        "closed shapes; mst: from neighbour to neighbour along a spanning tree; file: as in the file; viewpoint: "
+        "there or from above, else wnnc; wnnc: by the winding number, for which all points vote, and by what "
+        "neighbours agree on; mst: from neighbour to neighbour alone; file: as in the file; viewpoint: "
         "towards the sensor",
         choices=("auto", "wnnc", "mst", "file", "viewpoint"),
     )

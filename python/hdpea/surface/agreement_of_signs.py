@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Signs by the method after which most neighbours agree, decided on a part of the points if there are many."""
+"""Signs of points of which nobody says where they were seen from, decided on a part of them if there are many."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from hdpea import _core
 from hdpea.frontend.roughness import Roughness
 from hdpea.geometry.thinning import farthest_rows
 from hdpea.runtime.progress import PhaseCallback
-from hdpea.surface.sign_methods import by_spanning_tree, by_winding_number
+from hdpea.surface.sign_methods import by_winding_number
 from hdpea.surface.signs import Orientation, SignEvidence, Vectors
 
 DECIDING = 50_000
@@ -22,18 +22,11 @@ They are farthest points, and lie as evenly and twice as near to each other as t
 FOLLOWED = 4
 """Nearest deciding points of which the one whose plane is most nearly a point's own is followed: so a wall has two."""
 
-FAVOURED, CHANCE = 1.5, 0.0003
-"""How many times the disagreement of the spanning tree that of the winding number may be, and what is added to it.
-
-A tree joins those that agree most, so that a whole part may be on the wrong side and few neighbours disagree. Rings
-and views of twelve training meshes have 2.1 % of their points on the wrong side instead of 3.0 %; 73 scans with holes
-of 25 others 4.7 % either way."""
-
 
 def by_agreement(
     points: Vectors, directions: Vectors, evidence: SignEvidence, progress: PhaseCallback | None
 ) -> Orientation:
-    """Orient by the winding number or the spanning tree, whichever neighbours agree with more."""
+    """Orient by the winding number, and by what neighbours agree on."""
     decide = _of_deciding_points if len(points) > DECIDING else _of_all
     return decide(points, directions, evidence, progress)
 
@@ -41,21 +34,9 @@ def by_agreement(
 def _of_all(
     points: Vectors, directions: Vectors, evidence: SignEvidence, progress: PhaseCallback | None
 ) -> Orientation:
-    candidates = {
-        "wnnc": by_winding_number(points, directions, evidence, progress),
-        "mst": by_spanning_tree(points, directions, evidence),
-    }
-    agreed = {
-        method: _core.orientation_consistency(points, normals, evidence.neighbors)
-        for method, normals in candidates.items()
-    }
-    # Noise and thin walls mislead the spanning tree, large openings the winding number: then neighbours disagree.
-    most = FAVOURED * (1 - agreed["mst"]) + CHANCE
-    best, other = ("wnnc", "mst") if 1 - agreed["wnnc"] <= most else ("mst", "wnnc")
-    why = f"{agreed[best]:.2%} of neighbours agree on the side, by {other} {agreed[other]:.2%}"
-    # What was seen through an opening touches nothing that it could agree with.
-    normals = _core.turn_contrary_pieces(points, candidates[best], evidence.neighbors)
-    return Orientation(normals, best, why)
+    normals = by_winding_number(points, directions, evidence, progress)
+    agreed = _core.orientation_consistency(points, normals, evidence.neighbors)
+    return Orientation(normals, "wnnc", f"{agreed:.2%} of neighbours agree on the side")
 
 
 def _of_deciding_points(

@@ -14,7 +14,7 @@ from hdpea.geometry.thinning import rows_without
 from hdpea.options import NormalOptions
 from hdpea.runtime.progress import PhaseCallback
 from hdpea.surface.agreement_of_signs import by_agreement
-from hdpea.surface.sign_methods import by_file, by_spanning_tree, by_view, by_winding_number
+from hdpea.surface.sign_methods import by_file, by_neighbors, by_view, by_winding_number
 from hdpea.surface.signs import Orientation, SignEvidence, Vectors, turned
 from hdpea.surface.single_view import View, single_view
 from hdpea.surface.visibility import MOST_HIDDEN, share_hidden
@@ -76,7 +76,7 @@ def orient(
         return Orientation(turned(directions, seen_from - points), method)
     if method == "file":
         return Orientation(by_file(points, directions, evidence), method)
-    return Orientation(by_spanning_tree(points, directions, evidence), method)
+    return Orientation(by_neighbors(points, directions, evidence), method)
 
 
 def _by_best_method(

@@ -23,13 +23,20 @@ MOST_OF_WALLS = 0.15
 """Largest deviation, in spacings, that counts for the width where it is not noise: walls must keep two sides."""
 
 
+FEWER, MOST_LEFT = 0.7, 0.025
+"""How many times as often neighbours may disagree after they have agreed on signs as before, and how often at all.
+
+Where noise is as wide as points are apart, 0.9 times and more; on the two sides of a wall thinner than half a spacing,
+which pass for one, in 3 of 100 cases. Of 108 scans of 60 meshes without noise they do in 2 at most."""
+
+
 def by_file(points: Vectors, directions: Vectors, evidence: SignEvidence) -> Vectors:
     """Take the signs of the given normals, and where there is none, that of the nearest point that has one."""
     signed = turned(directions, evidence.given)
     usable = np.asarray(evidence.given.any(axis=1))
     if usable.all():
         return signed
-    oriented = by_spanning_tree(points, directions, evidence)
+    oriented = by_neighbors(points, directions, evidence)
     kept = cosines(oriented, signed)[usable] >= 0
     nearest_usable = _core.nearest_neighbors(points[usable], points[~usable], 1)[:, 0]
     signed[~usable] = np.where(kept[nearest_usable], 1, -1)[:, None] * oriented[~usable]
@@ -37,14 +44,21 @@ def by_file(points: Vectors, directions: Vectors, evidence: SignEvidence) -> Vec
 
 
 def by_view(points: Vectors, directions: Vectors, evidence: SignEvidence, view: View) -> Vectors:
-    """Turn normals to what saw the points; those seen at a grazing angle, where noise decides, follow the others."""
+    """Turn normals to what saw the points; those seen at a grazing angle, where noise decides, follow the others.
+
+    So do those that lie below others, of clouds that nothing but the points says to be seen from above: undersides,
+    which touch what lies below them.
+    """
     signed = turned(directions, view.towards)
     known = np.asarray(cosines(signed, view.towards) > GRAZING)
+    if view.below is not None:
+        # Some of an underside's points have by chance none above them.
+        known &= ~(view.below | (view.below[evidence.neighbors] & (evidence.neighbors >= 0)).any(axis=1))
     return signed if known.all() else _core.orient_normals(points, signed, evidence.neighbors, known)
 
 
-def by_spanning_tree(points: Vectors, directions: Vectors, evidence: SignEvidence) -> Vectors:
-    """Propagate the sign from neighbour to neighbour, along the edges whose ends are most nearly parallel."""
+def by_neighbors(points: Vectors, directions: Vectors, evidence: SignEvidence) -> Vectors:
+    """Carry the sign from neighbour to neighbour, from part to part as most edges between them say."""
     return _core.orient_normals(points, directions, evidence.neighbors)
 
 
@@ -54,7 +68,12 @@ def by_winding_number(
     evidence: SignEvidence,
     progress: PhaseCallback | None = None,
 ) -> Vectors:
-    """Take the signs of the winding number's normals; estimates far from these are replaced by them."""
+    """Take the signs of the winding number's normals; estimates far from these are replaced by them.
+
+    Beside large holes of the cloud these are wrong about half a face, and of a part of a room about any: so they only
+    vote, and neighbours agree. Of 108 scans of 60 meshes from two to eight places without sensors, 1.6 % of the points
+    are on the wrong side then, 6.8 % by the winding number alone. Through noise neighbours agree with less.
+    """
     options, roughness = _core.WnncOptions(), evidence.roughness
     noise = roughness.deviation if roughness.like_noise else min(roughness.deviation, MOST_OF_WALLS)
     options.spacings_wide += DEVIATIONS_WIDE * noise
@@ -64,5 +83,8 @@ def by_winding_number(
     # An estimate far off was fitted across an edge or a thin wall, which the winding number tells apart.
     replaced = evidence.estimated & ~agreeing
     signed[replaced] = winding[replaced]
-    # Beside large holes of the cloud it may be wrong about half a face: so faces vote.
-    return _core.agree_on_signs(points, signed, evidence.neighbors)
+    agreed = _core.agree_on_signs(points, signed, evidence.neighbors)
+    left, before = (
+        1 - _core.orientation_consistency(points, normals, evidence.neighbors) for normals in (agreed, signed)
+    )
+    return agreed if left < min(MOST_LEFT, FEWER * before) else signed

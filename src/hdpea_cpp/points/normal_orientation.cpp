@@ -10,10 +10,22 @@
 #include "hdpea_cpp/base/checks.hpp"
 #include "hdpea_cpp/base/errors.hpp"
 #include "hdpea_cpp/base/signed_sets.hpp"
-#include "hdpea_cpp/points/carried_normals.hpp"
+#include "hdpea_cpp/points/signed_contraction.hpp"
 
 namespace hdpea {
 namespace {
+
+/// n_i . n_j after n_i is carried along the arc from p_i to p_j.
+double carried_cosine(const PointsRef& points, const PointsRef& normals, Index i, Index j) {
+  const Eigen::RowVector3d edge = (points.row(j) - points.row(i)).stableNormalized();
+  const Eigen::RowVector3d normal = normals.row(i);
+  return (normal - 2 * normal.dot(edge) * edge).dot(normals.row(j));
+}
+
+/// Edges that join points at once: their cost, 1 - |cosine|, is at most this, and the set has so few points. What is
+/// joined so cannot be parted by what is seen of a larger part.
+constexpr double small_cost = 0.05;
+constexpr Index most_at_once = 8;
 
 struct Edge {
   double cost;
@@ -31,6 +43,51 @@ std::vector<Edge> sorted_edges(const PointsRef& points, const PointsRef& normals
   }
   std::sort(edges.begin(), edges.end());
   return edges;
+}
+
+/// Sets of points with the signs that most of their edges agree with.
+///
+/// @param known  (n) whose signs are right: they are one set; or none
+/// @param vote   weight of the sign that each point has on entry, towards the member n; with 0 there is none
+SignedSets joined_by_edges(const PointsRef& points, const PointsRef& normals, const NeighborsRef& neighbors,
+                           const MaskRef& known, double vote) {
+  const Index n = points.rows();
+  const auto is_known = [&](Index i) { return known.size() > 0 && known(i); };
+  SignedSets sets(n + (vote > 0));
+  for (Index i = 0, first = -1; i < n; ++i) {
+    if (!is_known(i)) continue;
+    if (first < 0) first = i;
+    sets.join(first, i, false);
+  }
+  std::vector<SignedEdge> edges;
+  for (const Edge& edge : sorted_edges(points, normals, neighbors)) {
+    if (is_known(edge.i) && is_known(edge.j)) continue;
+    const double cosine = carried_cosine(points, normals, edge.i, edge.j);
+    if (edge.cost < small_cost && !is_known(edge.i) && !is_known(edge.j) &&
+        sets.size(edge.i) + sets.size(edge.j) <= most_at_once) {
+      sets.join(edge.i, edge.j, cosine < 0);
+    } else {
+      edges.push_back({edge.i, edge.j, cosine});
+    }
+  }
+  for (Index i = 0; vote > 0 && i < n; ++i) edges.push_back({i, n, vote});
+  join_by_weight(sets, edges);
+  return sets;
+}
+
+/// (n) area that each point stands for, to scale: that out to its farthest neighbour. Of few points far from all
+/// others, which may be strays, no more than `most_of_median` times the usual.
+Eigen::VectorXd areas_of(const PointsRef& points, const NeighborsRef& neighbors, double most_of_median = 8) {
+  Eigen::VectorXd areas = Eigen::VectorXd::Zero(points.rows());
+  for (Index i = 0; i < neighbors.rows(); ++i) {
+    for (Index j : neighbors.row(i)) {
+      if (j >= 0) areas(i) = std::max(areas(i), (points.row(j) - points.row(i)).squaredNorm());
+    }
+  }
+  if (areas.size() == 0) return areas;
+  Eigen::VectorXd sorted = areas;
+  std::nth_element(sorted.begin(), sorted.begin() + sorted.size() / 2, sorted.end());
+  return areas.cwiseMin(most_of_median * sorted(sorted.size() / 2));
 }
 
 /// What is summed over a piece of the surface to find the side it faces.
@@ -53,7 +110,7 @@ struct Sums {
 /// Whether each piece (by its representative) faces inwards, by all its points.
 std::vector<char> face_inwards(const PointsRef& points, const Points& normals, const NeighborsRef& neighbors,
                                const std::vector<Index>& piece) {
-  const Eigen::VectorXd areas = neighborhood_areas(points, neighbors);
+  const Eigen::VectorXd areas = areas_of(points, neighbors);
   const Eigen::RowVector3d middle = points.colwise().mean();
   std::vector<Sums> sums(piece.size());
   for (Index i = 0; i < points.rows(); ++i) {
@@ -86,16 +143,7 @@ Points orient_normals(const PointsRef& points, const PointsRef& normals, const N
     oriented.row(i).cwiseAbs().maxCoeff(&largest);
     if (oriented(i, largest) < 0) oriented.row(i) *= -1;
   }
-  SignedSets pieces(n);
-  Index first_known = -1;
-  for (Index i = 0; i < n; ++i) {
-    if (!is_known(i)) continue;
-    if (first_known < 0) first_known = i;
-    pieces.join(first_known, i, false);
-  }
-  for (const Edge& edge : sorted_edges(points, oriented, neighbors)) {
-    pieces.join(edge.i, edge.j, carried_cosine(points, oriented, edge.i, edge.j) < 0);
-  }
+  SignedSets pieces = joined_by_edges(points, oriented, neighbors, known, 0);
   std::vector<Index> piece(static_cast<std::size_t>(n));
   for (Index i = 0; i < n; ++i) {
     const auto [root, flipped] = pieces.find(i);
@@ -104,33 +152,24 @@ Points orient_normals(const PointsRef& points, const PointsRef& normals, const N
   }
   std::vector<char> inwards = face_inwards(points, oriented, neighbors, piece);
   // The known ones turn back to the signs that they had.
-  if (first_known >= 0) inwards[piece[first_known]] = pieces.find(first_known).second;
+  for (Index i = 0; i < n; ++i) {
+    if (is_known(i)) inwards[piece[i]] = pieces.find(i).second;
+  }
   for (Index i = 0; i < n; ++i) {
     if (inwards[piece[i]]) oriented.row(i) *= -1;
   }
   return oriented;
 }
 
-Points agree_on_signs(const PointsRef& points, const PointsRef& normals, const NeighborsRef& neighbors,
-                      double least_cosine) {
-  const Index n = points.rows();
-  require(least_cosine >= -1, "the least cosine must be at least -1");
+Points agree_on_signs(const PointsRef& points, const PointsRef& normals, const NeighborsRef& neighbors, double vote) {
+  require(vote > 0, "a vote must count for something");
   require_neighborhoods(points, normals, neighbors);
-  SignedSets pieces(n);
-  for (const Edge& edge : sorted_edges(points, normals, neighbors)) {
-    if (edge.cost > 1 - least_cosine) break;
-    pieces.join(edge.i, edge.j, carried_cosine(points, normals, edge.i, edge.j) < 0);
-  }
-  std::vector<Index> votes(static_cast<std::size_t>(n), 0);
-  for (Index i = 0; i < n; ++i) {
-    const auto [root, flipped] = pieces.find(i);
-    votes[root] += flipped ? -1 : 1;
-  }
+  const Index n = points.rows();
+  SignedSets pieces = joined_by_edges(points, normals, neighbors, Mask(), vote);
+  const bool voters_flipped = pieces.find(n).second;
   Points agreed = normals;
   for (Index i = 0; i < n; ++i) {
-    const auto [root, flipped] = pieces.find(i);
-    // The piece has the sign of its root where most members are not flipped against it.
-    if (flipped != (votes[root] < 0)) agreed.row(i) *= -1;
+    if (pieces.find(i).second != voters_flipped) agreed.row(i) *= -1;
   }
   return agreed;
 }

@@ -7,10 +7,11 @@ namespace hdpea {
 
 /// Gives normals one consistent orientation; their signs on entry do not matter.
 ///
-/// Kruskal's spanning forest of the neighbour graph carries the orientation from point to point. Along an
-/// edge e, a normal is reflected in the plane that bisects the edge, n - 2 (n . e) e, as it is along a circular
-/// arc between the points: that is right across a sharp crease and a thin wall alike (Koenig & Gumhold 2009).
-/// Edges go first where the reflected normal and the neighbour's are most nearly parallel. Each connected
+/// The edges of the neighbour graph carry the orientation from point to point. Along an edge e, a normal is reflected
+/// in the plane that bisects the edge, n - 2 (n . e) e, as it is along a circular arc between the points: that is right
+/// across a sharp crease and a thin wall alike (Koenig & Gumhold 2009). How nearly parallel the reflected normal and
+/// the neighbour's are says how surely their signs agree, and parts are joined by the sum over all edges between them
+/// (`join_by_weight`): where a ball lies on a floor, the few edges from one to the other are outvoted. Each connected
 /// piece then faces outwards: the volume within its points is positive. Open and rather flat, it has no inside, and
 /// faces up, or the positive way along the axis that it faces most.
 ///
@@ -22,18 +23,20 @@ namespace hdpea {
 Points orient_normals(const PointsRef& points, const PointsRef& normals, const NeighborsRef& neighbors,
                       const MaskRef& known = Mask());
 
-/// Lets the points of one sheet vote on its signs: each piece of the surface takes the sides that most of its normals
-/// have on entry.
+/// Lets neighbours agree on their signs: as `orient_normals`, but the signs on entry say which side is out.
 ///
-/// A piece is a set of points connected by edges along which normals, carried as above, agree to within the angle of
-/// `least_cosine`: it extends across creases, but not between sheets that the points do not resolve, nor far
-/// through noise. Ties are decided by the side of the piece's first point.
+/// Each counts for as much as a small part of an edge: enough to decide between parts that nothing else joins, or that
+/// touch, and not to part what is joined. Where noise is as wide as the points are apart, edges say little, and the
+/// signs on entry may agree better (`orientation_consistency`).
 ///
 /// @param points     (n, 3)
 /// @param normals    (n, 3) unit, mostly oriented
 /// @param neighbors  (n, k), -1 pads
+/// @param vote       what a sign counts for. Of 108 scans of 60 meshes from two to eight places 1.6 % of the points are
+/// on
+///                   the wrong side with 0.006 to 0.02, 1.9 % with 0.003, 3.0 % with 0.05
 Points agree_on_signs(const PointsRef& points, const PointsRef& normals, const NeighborsRef& neighbors,
-                      double least_cosine = 0.9995);
+                      double vote = 0.01);
 
 /// Share of neighbours whose signs agree by the same criterion: 1 for oriented normals, 0.5 for random signs.
 ///

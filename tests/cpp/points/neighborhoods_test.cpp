@@ -7,7 +7,6 @@
 #include <string>
 
 #include "hdpea_cpp/base/errors.hpp"
-#include "hdpea_cpp/points/contrary_pieces.hpp"
 #include "hdpea_cpp/points/curvature.hpp"
 #include "hdpea_cpp/points/jet_fitting.hpp"
 #include "hdpea_cpp/points/moving_least_squares.hpp"
@@ -35,7 +34,6 @@ const Function kFunctions[] = {
     {"orientation_consistency", [](auto&... given) { orientation_consistency(given...); }},
     {"sheet_neighbors", [](auto&... given) { sheet_neighbors(given...); }},
     {"tangent_bases", [](auto&... given) { tangent_bases(given...); }},
-    {"turn_contrary_pieces", [](auto&... given) { turn_contrary_pieces(given...); }},
 };
 
 class Neighborhoods : public testing::TestWithParam<Function> {

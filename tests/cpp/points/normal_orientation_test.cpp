@@ -53,11 +53,30 @@ TEST(NormalOrientation, OfAPieceIsThatOfItsMajority) {
   EXPECT_EQ(agree_on_signs(sheets.points, -disturbed, neighbors), -sheets.normals);
 }
 
-TEST(NormalOrientation, OfPiecesThatAreSureOfNothingIsKept) {
+TEST(NormalOrientation, IsAsGivenIfThatCountsForMoreThanNeighbors) {
   const auto sphere = clouds::sphere(500);
   const Neighbors neighbors = nearest_neighbors(sphere.points, 16);
-  const Points disturbed = with_random_signs(sphere.normals);
-  EXPECT_EQ(agree_on_signs(sphere.points, disturbed, neighbors, 1.1), disturbed);
+  Points disturbed = sphere.normals;
+  // All of a cap: no part that is joined before votes are counted has points of both kinds.
+  disturbed.topRows(200) *= -1;
+  EXPECT_GT(share_right(agree_on_signs(sphere.points, disturbed, neighbors, 100), disturbed), 0.9);
+  EXPECT_EQ(agree_on_signs(sphere.points, disturbed, neighbors, 0.01), sphere.normals);
+  EXPECT_THROW(agree_on_signs(sphere.points, disturbed, neighbors, 0), InvalidArgument);
+}
+
+TEST(NormalOrientation, GoesNotFromAFloorToABallThatLiesOnIt) {
+  const auto floor = clouds::plane(4000, -0.2);
+  auto scene = clouds::joined(floor, clouds::sphere(2000, 0.2));
+  scene.points.bottomRows(2000).leftCols(2).array() += 0.5;
+  const Neighbors neighbors = nearest_neighbors(scene.points, 16);
+  // Next to the contact both are one sheet.
+  EXPECT_GT(share_right(agree_on_signs(scene.points, scene.normals, neighbors), scene.normals), 0.98);
+  EXPECT_GT(share_right(orient_normals(scene.points, scene.normals, neighbors), scene.normals), 0.98);
+  Mask known = Mask::Zero(6000);
+  known.head(4000).setOnes();
+  for (Index i = 4000; i < 6000; ++i) known(i) = scene.points(i, 2) > 0.05;
+  const Points oriented = orient_normals(scene.points, scene.normals, neighbors, known);
+  EXPECT_GT(share_right(oriented, scene.normals), 0.98);
 }
 
 TEST(NormalOrientation, OfTheWholeIsNotDecidedByStrays) {

@@ -131,7 +131,6 @@ CALLS: dict[str, tuple[Callable[..., Any], Arguments]] = {
         {"coordinates": np.hstack([POINTS, POINTS]), "normals": NORMALS, "neighbors": NEIGHBORS},
     ),
     "tangent_bases_across": (_core.tangent_bases_across, {"normals": NORMALS}),
-    "turn_contrary_pieces": (_core.turn_contrary_pieces, _cloud()),
     "wnnc_normals": (lambda points: _core.wnnc_normals(points, _core.WnncOptions()), {"points": POINTS}),
 }
 

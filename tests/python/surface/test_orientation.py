@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from helpers import clouds
 
+from hdpea import _core
 from hdpea.errors import UnreadableInput, UsageError
 from hdpea.options import NormalOptions
 from hdpea.options.position import Position
@@ -155,14 +156,17 @@ def test_positions_are_read_as_they_are_written() -> None:
     assert Position.parse(str(position)) == position
 
 
-@pytest.mark.parametrize(("wrong", "best"), [(0.011, "wnnc"), (0.05, "mst")])
-def test_the_spanning_tree_must_be_clearly_better(monkeypatch: pytest.MonkeyPatch, wrong: float, best: str) -> None:
+def test_neighbors_outvote_a_winding_number_that_is_wrong_about_a_part(monkeypatch: pytest.MonkeyPatch) -> None:
     points, truth = clouds.torus(4000)
-    random = np.random.default_rng(0)
+    wrong = truth * np.where(points[:, :1] > 0.5, -1, 1)
+    monkeypatch.setattr(_core, "wnnc_normals", lambda *_: wrong)
+    assert (cosines(oriented(points), truth) > 0).mean() > 0.999
 
-    def with_share_turned(share: float) -> Array:
-        return truth * np.where(random.random((len(truth), 1)) < share, -1, 1)
 
-    monkeypatch.setattr(agreement_of_signs, "by_spanning_tree", lambda *_: with_share_turned(0.01))
-    monkeypatch.setattr(agreement_of_signs, "by_winding_number", lambda *_: with_share_turned(wrong))
-    assert chosen_way(oriented_surface(points)) == [best]
+def test_the_winding_number_decides_between_parts_that_nothing_joins(monkeypatch: pytest.MonkeyPatch) -> None:
+    one, other = clouds.torus(3000), clouds.sphere(2000)
+    points, truth = np.vstack([one[0], other[0] + [9, 0, 0]]), np.vstack([one[1], -other[1]])
+    # Some are wrong everywhere, and most are right.
+    votes = truth * np.where(np.random.default_rng(0).random((5000, 1)) < 0.3, -1, 1)
+    monkeypatch.setattr(_core, "wnnc_normals", lambda *_: votes)
+    assert (cosines(oriented(points), truth) > 0).mean() > 0.999
