@@ -13,7 +13,9 @@ from numpy.typing import NDArray
 
 from hdpea.errors import UnreadableInput
 from hdpea.reading.names import coordinates_among
-from hdpea.reading.tables import BadLine, is_number, look_like_normals
+from hdpea.reading.numbering import LEAST_ROWS, are_numbered, counts_rows, tells_apart, with_fractions
+from hdpea.reading.tables import BadLine, is_number
+from hdpea.reading.unnamed import are_numbered_twice, are_timed
 
 UNKNOWN = frozenset({"", "na", "n/a", "null", "none", "-", "nan"})
 """Fields, in lower case, where there is no number."""
@@ -32,7 +34,7 @@ class Columns:
         """Return the columns of numbers by the names of all columns; one without a name that numbers rows is not."""
         named: dict[str, NDArray[np.float64]] = {}
         for place, column in zip(self.places, self.table.T, strict=True):
-            numbers = _counts_rows(column) or (place == 0 and _tells_apart(column))
+            numbers = counts_rows(column) or (place == 0 and tells_apart(column))
             if names[place] != f"column_{place + 1}" or not numbers:
                 named[names[place] if names[place] not in named else f"{names[place]}_{place + 1}"] = column
         return named
@@ -42,62 +44,50 @@ class Columns:
         if len(names) != self.width - 1:
             return len(names) == self.width
         first = self.table[:, 0]
-        if 0 not in self.places or (len(first) > 1 and _counts_rows(first)):
+        if 0 not in self.places or (len(first) > 1 and counts_rows(first)):
             return True
-        if len(coordinates_among(names)) < 3 or len(first) < LEAST_ROWS or not _tells_apart(first):
+        if len(coordinates_among(names)) < 3 or len(first) < LEAST_ROWS or not tells_apart(first):
             return False
         # Some rows of a longer table, as R and pandas write them, unless the names fit as well without a shift.
         at = min(names.index(name) for name in coordinates_among(names))
         unshifted = self.table[:, [i for i, place in enumerate(self.places) if place == at]]
-        return _with_fractions(self.table[:, 1:]) >= 3 and not _with_fractions(unshifted)
+        return with_fractions(self.table[:, 1:]) >= 3 and not with_fractions(unshifted)
 
     def without_row_numbers(self, notes: list[str], told: bool = False) -> Columns:
         """Return the columns without a first one that numbers the rows, if there are three others; note that.
 
-        It does if it counts them, if its numbers are whole, rise or fall, and three columns of fractions follow, or if
-        the file has `told` so.
+        It does if ``are_numbered`` says so, or if the file has `told` it.
         """
-        if self.table.shape[1] < 4 or not (self.places[0] == 0 if told else self._are_numbered()):
+        if self.table.shape[1] < 4 or not (self.places[0] == 0 if told else are_numbered(self.table)):
             return self
         notes.append(f"Column {self.places[0] + 1} numbers the rows; the next three are taken for x, y and z.")
-        return replace(self, table=self.table[:, 1:], places=self.places[1:])
+        return self._from(1)
 
-    def _are_numbered(self) -> bool:
-        first, others = self.table[:, 0], self.table[:, 1:4]
-        if len(first) < LEAST_ROWS or _counts_rows(first):
-            return len(first) >= LEAST_ROWS
-        is_sorted = bool((first[1:] > first[:-1]).all() or (first[1:] < first[:-1]).all())
-        # Normals in columns 4 to 6 say that those before are coordinates.
-        has_normals = self.table.shape[1] >= 6 and look_like_normals(self.table[:, 3:6])
-        return is_sorted and _tells_apart(first) and _with_fractions(others) == 3 and not has_normals
+    def without_times(self, notes: list[str]) -> Columns:
+        """Return the columns without a first one of times, or a first two of scan and point; note that.
+
+        Raises
+        ------
+        UnreadableInput
+            If they may be coordinates as well.
+        """
+        if self.table.shape[1] >= 4 and are_timed(self.table):
+            notes.append(f"Column {self.places[0] + 1} is taken for times, the next three for x, y and z.")
+            return self._from(1)
+        if are_numbered_twice(self.table):
+            first, second = (place + 1 for place in self.places[:2])
+            notes.append(f"Columns {first} and {second} number the rows; the next three are taken for x, y and z.")
+            return self._from(2)
+        return self
+
+    def _from(self, start: int) -> Columns:
+        return replace(self, table=self.table[:, start:], places=self.places[start:])
 
     def notes(self) -> list[str]:
         """Return what a user should know, in sentences."""
         words = [str(place + 1) for place in range(self.width) if place not in self.places]
         notes = [f"Left out, since they hold no numbers: columns {', '.join(words)}."] if words else []
         return [*notes, f"Empty fields, taken for unknown: {self.unknown:,}."] if self.unknown else notes
-
-
-LEAST_ROWS = 10
-"""Rows below which numbers that rise by 1 may be chance."""
-
-FRACTION_SHARE = 0.25
-"""Share of rows with fractions above which a column is not of whole numbers; a grid of spacing 1/2 has half."""
-
-
-def _counts_rows(column: NDArray[np.float64]) -> bool:
-    return bool(np.array_equal(column, column[:1] + np.arange(len(column))))
-
-
-def _tells_apart(column: NDArray[np.float64]) -> bool:
-    """Say whether the numbers are whole, and no two are the same."""
-    is_whole = bool(np.isfinite(column).all() and (column == np.floor(column)).all())
-    return is_whole and len(np.unique(column)) == len(column)
-
-
-def _with_fractions(table: NDArray[np.float64]) -> int:
-    """Return how many columns (n, c) have fractions in more than a few rows."""
-    return int((np.mean(table != np.floor(table), axis=0) > FRACTION_SHARE).sum())
 
 
 _QUOTED = re.compile(r'"([-+]?\d[\d.,]*(?:[eE][-+]?\d+)?)"')

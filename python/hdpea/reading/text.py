@@ -22,6 +22,7 @@ from hdpea.reading.tables import (
     parse_table,
     without_words_for_nan,
 )
+from hdpea.reading.unnamed import require_points
 
 _COMMENT = re.compile(r"(#|//|%)[^\n]*")
 _UNREAD = re.compile(r"(?:\s+|(?:#|//|%)[^\n]*(?:\n|$))++")
@@ -34,6 +35,8 @@ MOST_HEADER_LINES = 1_000
 """Lines before the first point, comments and blank ones aside, after which a text is no table."""
 _FRACTION = re.compile(r",0\d")
 """Digits after a comma that begin with a zero, as no number does."""
+_FORTRAN = re.compile(r"(\.\d*)[dD](?=[-+]\d{1,3}(?![^\s,;\"']))")
+"""What Fortran writes before the exponent of a double: 1.0D+00."""
 _SEPARATORS = str.maketrans(",;\t", "   ")
 _PTS = {4: ["intensity"], 6: ["red", "green", "blue"], 7: ["intensity", "red", "green", "blue"]}
 """What follows x, y and z in a PTS file of so many columns."""
@@ -54,15 +57,15 @@ def parse_text(data: bytes, normals_expected: bool = False) -> PointCloud:
 
     Separators are blanks, commas, semicolons and tabs; empty fields are unknown numbers, and columns of words are left
     out. Columns go by the header's names where it names x, y and z, else by ``name_columns``; a first column that
-    numbers the rows is no coordinate then.
+    numbers the rows, or is of times, is no coordinate then.
 
     Raises
     ------
     UnreadableInput
-        If a line is not like the others, no column is x, y or z, the header does not fit the rows, or what commas are
-        is not to be told.
+        If a line is not like the others, no column is x, y or z, the header does not fit the rows, what commas or the
+        first columns are is not to be told, or they are heights.
     """
-    text = without_commas(without_words_for_nan(decoded(data)))
+    text = without_commas(_with_exponents_of_c(without_words_for_nan(decoded(data))))
     if "\r" in text:
         text = text.replace("\r\n", "\n").replace("\r", "\n")
     start = _find_numbers(text)
@@ -91,10 +94,17 @@ def parse_text(data: bytes, normals_expected: bool = False) -> PointCloud:
         named = columns.named(_padded(start.header, width))
     else:
         columns = columns.without_row_numbers(notes, start.numbered)
+        if not normals_expected and len(coordinates_among(map(plain_name, start.header))) < 3:
+            require_points(columns.table)
+            columns = columns.without_times(notes)
         named = name_columns(columns.table, normals_expected)
         if start.counted is not None and len(named) in _PTS and "nx" not in named:
             named = dict(zip(["x", "y", "z", *_PTS[len(named)]], named.values(), strict=True))
     return from_columns(named, f"text, {width} columns", notes)
+
+
+def _with_exponents_of_c(text: str) -> str:
+    return _FORTRAN.sub(r"\1e", text) if re.search("[dD][-+]", text) else text
 
 
 def _names_fit(start: _Start, columns: Columns, notes: list[str]) -> bool:
