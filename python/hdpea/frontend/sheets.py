@@ -34,7 +34,7 @@ FARTHEST, FARTHER = 4.0, 2.0
 strays are some times in the plane of two rows of others."""
 
 LEAST_WIDTH = 0.15
-"""Width by length of the eight: a line is no sheet."""
+"""Width by length of a sheet: a line is none, nor are three points far from an edge together with that."""
 
 SURROUNDINGS = 0.25
 """Quantile of the distances around that is their unit: strays among them do not matter."""
@@ -73,7 +73,8 @@ def _among_others(
     near = nearest[rows, :SHEET_POINTS]
     variances = _variances(points, np.column_stack([rows, near]))
     back = np.zeros(len(points), dtype=bool)
-    back[rows] = variances[:, 0] < FLAT**2 * variances[:, 1]
+    flat = variances[:, 0] < FLAT**2 * variances[:, 1]
+    back[rows] = flat & (variances[:, 1] > LEAST_WIDTH**2 * variances[:, 2])
     while True:
         held = back[rows] & ((~strays | back)[near].sum(axis=1) >= SHEET) & (back[near].sum(axis=1) >= SHEET_COMPANY)
         if held.sum() == back.sum():

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from helpers import clouds
 from helpers.clouds import sphere_points
 from numpy.typing import NDArray
 
@@ -119,6 +120,15 @@ def test_a_sheet_far_from_everything_is_dropped() -> None:
     found = classify(np.vstack([dense, far])).strays
     assert found[-len(far) :].all()
     assert found[: -len(far)].sum() <= 10
+
+
+@pytest.mark.parametrize("far", [20.0, 1000.0])
+def test_three_strays_together_are_no_sheet_with_the_edge_of_a_box(far: float) -> None:
+    points, _ = clouds.box(3000, (1, 2, 0.5))
+    strays = [far, 0, 0.3 * far] + 0.001 * far * np.random.default_rng(2).normal(size=(3, 3))
+    found = classify(np.vstack([points, strays])).strays
+    assert found[-3:].all()
+    assert not found[:-3].any()
 
 
 def test_of_points_on_lines_those_are_kept_that_the_gaps_need() -> None:
