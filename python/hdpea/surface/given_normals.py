@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from hdpea.errors import UnreadableInput, core_errors_translated
 from hdpea.geometry.unit_frame import UnitFrame
 from hdpea.options import NormalOptions
+from hdpea.surface.contrary_normals import contrary_normals
 from hdpea.surface.plausibility import are_normals
 
 
@@ -25,12 +26,12 @@ class GivenNormals:
     usable
         (n,) bool: which are taken for normals; the others are to be estimated.
     refused
-        Whether there were directions that are no normals.
+        How many directions are no normals.
     """
 
     directions: NDArray[np.float64]
     usable: NDArray[np.bool_]
-    refused: bool = False
+    refused: int = 0
 
 
 def judged_normals(
@@ -57,5 +58,5 @@ def judged_normals(
         return GivenNormals(given, usable)
     points = UnitFrame.around(points_in_world).to_unit(points_in_world)
     with core_errors_translated():
-        refused = not are_normals(points, given)
-    return GivenNormals(given, usable & (not refused), refused)
+        refused = usable & contrary_normals(points, given) if are_normals(points, given) else usable
+    return GivenNormals(given, usable & ~refused, int(refused.sum()))

@@ -48,7 +48,7 @@ class OrientedSurface:
     method
         What gave the normals their signs, one of ``NormalOptions.orient`` but auto.
     refused
-        Whether directions were given that are no normals, so that these were estimated instead.
+        How many of the given directions are no normals, so that these were estimated instead.
     choices
         What was chosen automatically.
     view
@@ -64,7 +64,7 @@ class OrientedSurface:
     estimated: int
     signs: GivenSigns | None
     method: str
-    refused: bool = False
+    refused: int = 0
     choices: tuple[Choice, ...] = ()
     view: View | None = None
     sensors_refused: bool = False

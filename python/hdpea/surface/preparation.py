@@ -118,8 +118,11 @@ def _scans_that_met(cloud: PointCloud, given: GivenNormals, denoising: Denoising
 
 def _notes(cloud: PointCloud, oriented: OrientedSurface) -> list[str]:
     notes = []
-    if oriented.refused:
+    if oriented.refused and oriented.estimated == len(cloud.points):
         notes.append("The given normals do not lie across the surface of the points: they were estimated instead.")
+    elif oriented.refused:
+        which = f"{oriented.refused:,} of the given normals do not lie across the surface of the points"
+        notes.append(f"{which}: normals of {oriented.estimated:,} points were estimated.")
     elif oriented.estimated > cloud.unusable_normals:
         notes.append(f"Normals of {oriented.estimated:,} points were estimated.")
     signs = oriented.signs
