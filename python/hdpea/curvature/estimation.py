@@ -35,8 +35,8 @@ from hdpea.reading.cloud import PointCloud
 from hdpea.reading.objects import PointsLike
 from hdpea.runtime.progress import ProgressCallback, tell
 from hdpea.runtime.threads import limited_threads
+from hdpea.surface.given_normals import judged_normals
 from hdpea.surface.normals import ORIENTATION_NEIGHBORS
-from hdpea.surface.plausibility import are_normals
 from hdpea.surface.preparation import prepare_surface
 from hdpea.surface.surface import Surface
 
@@ -126,7 +126,7 @@ def _all_given(cloud: PointCloud, centered: NDArray[np.float64], options: Normal
     """Return whether no normal will be estimated."""
     if cloud.normals is None or options.normals == "estimate" or not cloud.normals.any(axis=1).all():
         return False
-    return options.normals == "file" or are_normals(centered, cloud.normals)
+    return bool(judged_normals(centered, cloud.normals, options).usable.all())
 
 
 def _at_all_points(

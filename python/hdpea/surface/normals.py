@@ -17,9 +17,9 @@ from hdpea.options.choice import Choice
 from hdpea.options.meshing import POINTS_PER_VERTEX
 from hdpea.runtime.progress import ProgressCallback, of_phase, tell
 from hdpea.surface.dense_parts import dense_parts
+from hdpea.surface.given_normals import GivenNormals, judged_normals
 from hdpea.surface.given_signs import GivenSigns, given_signs
 from hdpea.surface.orientation import orient, require_signs
-from hdpea.surface.plausibility import are_normals
 from hdpea.surface.signs import SignEvidence, Vectors
 from hdpea.surface.single_view import View
 from hdpea.surface.surface import NEIGHBORS, Surface, require_surface
@@ -48,7 +48,7 @@ class OrientedSurface:
     method
         What gave the normals their signs, one of ``NormalOptions.orient`` but auto.
     refused
-        Whether directions were given that are no normals, so that these were estimated instead.
+        How many of the given directions are no normals, so that these were estimated instead.
     choices
         What was chosen automatically.
     view
@@ -64,7 +64,7 @@ class OrientedSurface:
     estimated: int
     signs: GivenSigns | None
     method: str
-    refused: bool = False
+    refused: int = 0
     choices: tuple[Choice, ...] = ()
     view: View | None = None
     sensors_refused: bool = False
@@ -98,7 +98,7 @@ class OrientedSurface:
 
 def oriented_surface(
     points_in_world: NDArray[np.float64],
-    normals: NDArray[np.float64] | None = None,
+    normals: NDArray[np.float64] | GivenNormals | None = None,
     options: NormalOptions | None = None,
     points_per_vertex: float = POINTS_PER_VERTEX,
     progress: ProgressCallback | None = None,
@@ -115,7 +115,7 @@ def oriented_surface(
     points_in_world
         (n, 3) float64, finite and distinct.
     normals
-        (n, 3) float64 of length 1, or 0 where unusable.
+        (n, 3) float64 of length 1, or 0 where unusable; or what was made of them already by ``judged_normals``.
     points_per_vertex
         Points for each vertex that would show what they do (``hdpea.options.Options.resolution_of``): with more,
         normals are fitted to more neighbours, so that noise averages out in a redundant cloud.
@@ -132,16 +132,14 @@ def oriented_surface(
         If normals are to be turned to a viewpoint and there is none.
     """
     options = options or NormalOptions()
-    given = np.zeros_like(points_in_world) if normals is None else normals
-    usable = _usable(given, options)
-    require_signs(given, sensors_in_world, options)
+    given = normals if isinstance(normals, GivenNormals) else judged_normals(points_in_world, normals, options)
+    require_signs(given.directions, sensors_in_world, options)
     frame = UnitFrame.around(points_in_world)
     points = frame.to_unit(points_in_world)
     require_surface(points)
     tell(progress, "normals", 0)
     with core_errors_translated():
-        refused = options.normals == "auto" and not are_normals(points, given)
-        cloud = _Cloud.of(points, given, usable & (not refused))
+        cloud = _Cloud.of(points, given.directions, given.usable)
         directions, choices = _directions(cloud, options, points_per_vertex)
         evidence = _evidence(cloud, frame, sensors_in_world, options)
         seen_from = _seen_from(frame, sensors_in_world, options) if options.orient == "viewpoint" else None
@@ -157,22 +155,12 @@ def oriented_surface(
         estimated=int((~cloud.usable).sum()),
         signs=evidence.signs,
         method=orientation.method,
-        refused=refused,
+        refused=given.refused,
         choices=choices,
         view=orientation.view,
         sensors_refused=orientation.sensors_refused,
         parts=parts,
     )
-
-
-def _usable(given: Vectors, options: NormalOptions) -> NDArray[np.bool_]:
-    """Return which of the given normals (n, 3) may be taken, as far as the options say; none, if none are to be."""
-    usable: NDArray[np.bool_] = np.asarray(given.any(axis=1))
-    if options.normals == "file" and not usable.all():
-        raise UnreadableInput(
-            f"{int((~usable).sum())} points have no usable normal.", "Use `normals='auto'` to estimate those."
-        )
-    return usable & (options.normals != "estimate")
 
 
 @dataclass(frozen=True)

@@ -15,6 +15,7 @@ from hdpea.reading.cloud import PointCloud
 from hdpea.runtime.clock import StageClock
 from hdpea.runtime.progress import ProgressCallback
 from hdpea.surface.denoising import denoised
+from hdpea.surface.given_normals import GivenNormals, judged_normals
 from hdpea.surface.normals import OrientedSurface, oriented_surface
 from hdpea.surface.surface import Surface
 
@@ -68,7 +69,7 @@ def prepare_surface(
     ----------
     denoising
         None leaves the points where they are. Where it is to be found out, two scans that do not meet are moved
-        together, of points without normals.
+        together, of points without normals that are taken for such.
     points_per_vertex
         As of ``hdpea.surface.normals.oriented_surface``.
     progress
@@ -87,10 +88,12 @@ def prepare_surface(
     """
     clock = clock or StageClock()
     with clock.stage("normals"):
-        met = _scans_that_met(cloud, denoising)
+        normals = normals or NormalOptions()
+        given = judged_normals(cloud.points, cloud.normals, normals)
+        met = _scans_that_met(cloud, given, denoising)
         if met is not None:
             cloud = replace(cloud, points=met.points)
-        oriented = oriented_surface(cloud.points, cloud.normals, normals, points_per_vertex, progress, cloud.sensors())
+        oriented = oriented_surface(cloud.points, given, normals, points_per_vertex, progress, cloud.sensors())
     surface, choices = oriented.surface, oriented.choices
     if denoising is not None:
         with clock.stage("denoising"):
@@ -105,9 +108,9 @@ def prepare_surface(
     return Preparation(surface, oriented, choices, tuple(notes), missed)
 
 
-def _scans_that_met(cloud: PointCloud, denoising: DenoisingOptions | None) -> Met | None:
+def _scans_that_met(cloud: PointCloud, given: GivenNormals, denoising: DenoisingOptions | None) -> Met | None:
     """Move two scans together, if points may be moved and no normals tell whether layers are walls."""
-    if denoising is None or denoising.denoise != "auto" or cloud.counts()["usable_normals"]:
+    if denoising is None or denoising.denoise != "auto" or given.usable.any():
         return None
     with core_errors_translated():
         return moved_together(cloud.points)
@@ -115,8 +118,11 @@ def _scans_that_met(cloud: PointCloud, denoising: DenoisingOptions | None) -> Me
 
 def _notes(cloud: PointCloud, oriented: OrientedSurface) -> list[str]:
     notes = []
-    if oriented.refused:
+    if oriented.refused and oriented.estimated == len(cloud.points):
         notes.append("The given normals do not lie across the surface of the points: they were estimated instead.")
+    elif oriented.refused:
+        which = f"{oriented.refused:,} of the given normals do not lie across the surface of the points"
+        notes.append(f"{which}: normals of {oriented.estimated:,} points were estimated.")
     elif oriented.estimated > cloud.unusable_normals:
         notes.append(f"Normals of {oriented.estimated:,} points were estimated.")
     signs = oriented.signs

@@ -68,6 +68,15 @@ def test_it_is_told_that_they_are_no_normals(columns: Callable[[], Array]) -> No
     assert any("normals" in note for note in made.report.notes)
 
 
+@pytest.mark.parametrize("where", ["region", "random"])
+def test_a_constant_in_place_of_a_quarter_of_the_normals_does_no_harm(where: str) -> None:
+    ball = sphere_points(4000, 1)
+    replaced = ball[:, 0] > 0.5 if where == "region" else np.random.default_rng(0).random(4000) < 0.25
+    made = reconstruct(ball, np.where(replaced[:, None], [0, 0, 1.0], ball))
+    assert_ball(made)
+    assert share_against(made, middles(made)) == 0
+
+
 def test_lines_of_sight_are_no_normals() -> None:
     ball, sensor = sphere_points(8000, 1), np.array([4.0, 0, 0])
     sight = sensor - ball

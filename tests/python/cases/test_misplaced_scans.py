@@ -10,6 +10,7 @@ from helpers.raw_clouds import overlapping_strips, two_scans_of_a_ball, two_scan
 from helpers.raw_meshes import area, assert_ball, middles, share_against
 
 from hdpea import reconstruct
+from hdpea.options import NormalOptions, Options
 from hdpea.surface.layers import have_layers
 
 
@@ -21,6 +22,15 @@ def test_two_scans_of_a_ball_give_one(spacings: float) -> None:
 @pytest.mark.parametrize("spacings", [1.0, 2.0])
 def test_two_scans_of_a_ball_without_normals_give_one(spacings: float) -> None:
     made = reconstruct(two_scans_of_a_ball(2500, spacings)[0])
+    assert_ball(made)
+    assert any("moved together" in note for note in made.report.notes)
+
+
+@pytest.mark.parametrize("normals", ["auto", "estimate"])
+def test_two_scans_with_columns_that_are_no_normals_give_one(normals: str) -> None:
+    options = Options(normals=NormalOptions(normals=normals))
+    points = two_scans_of_a_ball(2500, 2.0)[0]
+    made = reconstruct(points, np.tile([0, 0, 1.0], (len(points), 1)), options=options)
     assert_ball(made)
     assert any("moved together" in note for note in made.report.notes)
 
