@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from hdpea import _core
 from hdpea.frontend.crowds import FEWEST, STEP, crowds_lie_across, nearest_kept, quiet_count
-from hdpea.geometry.thinning import farthest_rows
+from hdpea.geometry.thinning import farthest_rows, rows_along
 from hdpea.runtime.blocks import in_blocks
 
 NEAR, FAR = 3, 24
@@ -32,6 +32,13 @@ TWIN, MOST_TWINS = 0.25, 0.35
 uneven: a place that was seen twice or three times has no line of points.
 
 Of points spread at random 0.18 are twins, of frames along the same rays with noise of up to 0.2 spacings 0.45 to 1."""
+
+CLUMPED, MOST_CLUMPED, SAMPLES = 3.0, 0.7, 5_000
+"""Ratio of the distances to one of the nearest points and the one before, from which on these are a clump, the share of
+points in clumps that makes a cloud uneven, and how many are asked.
+
+Each place of twenty copies that differ in the last digits is covered by its own ten nearest points. Of points spread at
+random, on meshes, too, 0.12 to 0.13 are in clumps, of copies 0.97 and more."""
 
 SURROUNDING = 10
 """Nearest points of a level whose disk tells how much surface each of them has for itself."""
@@ -89,7 +96,8 @@ def sampling_of(points: NDArray[np.float64], nearest: NDArray[np.int64]) -> Samp
     """
     even_spacing = _even_spacing(points, nearest)
     on_lines = float((_dimension(points, nearest) < LINE_DIMENSION).mean())
-    if on_lines < LEAST_SHARE and _share_of_twins(points, nearest) < MOST_TWINS:
+    clump = _clump(points, nearest)
+    if on_lines < LEAST_SHARE and _share_of_twins(points, nearest) < MOST_TWINS and not clump:
         return Sampling(even_spacing, np.ones(len(points), dtype=bool), np.arange(len(points)), 0.0)
     order = farthest_rows(points, len(points))
     rank = np.empty(len(points), dtype=np.int64)
@@ -101,19 +109,21 @@ def sampling_of(points: NDArray[np.float64], nearest: NDArray[np.int64]) -> Samp
     while count >= FEWEST and (spacing == 0).any():
         level = np.ascontiguousarray(points[order[:count]])
         least = np.linalg.norm(level[:-1] - level[-1], axis=1).min()
+        count, of_level = round(count / STEP), count
+        if least < clump:
+            continue
         share, own = _share_of(level, least)
         at = _core.nearest_neighbors(level, points, 1)[:, 0]
         for most, counts in enough.items():
-            counts[(counts == 0) & (share[most][at] >= 0.5)] = count
+            counts[(counts == 0) & (share[most][at] >= 0.5)] = of_level
         covered = (spacing == 0) & (share[COVERED][at] >= 0.5)
         spacing[covered] = own[at[covered]]
-        count = round(count / STEP)
     # What is covered on no level, as wires are, stays as it is.
     spacing = np.where(spacing == 0, even_spacing, spacing)
     detailed, covering = (rank < np.where(counts == 0, len(points), counts) for counts in enough.values())
     kept = detailed
     if crowds_lie_across(points, covering):
-        kept = rank < quiet_count(points, order, int(covering.sum()))
+        kept = rank < quiet_count(points, order, int(covering.sum()), int(detailed.sum()))
     return Sampling(spacing, kept, nearest_kept(points, kept), on_lines)
 
 
@@ -126,6 +136,18 @@ def _dimension(points: NDArray[np.float64], nearest: NDArray[np.int64]) -> NDArr
     on_a_plane = (1 / np.arange(NEAR, FAR)).sum() / 2
     averaged = in_blocks(lambda block: growth[nearest[block, :AVERAGED]].mean(axis=1), len(points))
     return np.asarray(2 * on_a_plane / np.maximum(averaged, tiny))
+
+
+def _clump(points: NDArray[np.float64], nearest: NDArray[np.int64]) -> float:
+    """Return how far apart clumps are at least that points (n, 3) lie in; 0 if they lie in none."""
+    rows = rows_along(len(points), SAMPLES)
+    distances = np.linalg.norm(points[nearest[rows]] - points[rows, None], axis=2)
+    ratios = distances[:, 1:] / np.maximum(distances[:, :-1], np.finfo(np.float64).tiny)
+    clumped = ratios.max(axis=1) > CLUMPED
+    if clumped.mean() < MOST_CLUMPED:
+        return 0.0
+    width = np.take_along_axis(distances, ratios.argmax(axis=1)[:, None], axis=1)[clumped]
+    return float(np.sqrt(CLUMPED) * np.median(width))
 
 
 def _share_of_twins(points: NDArray[np.float64], nearest: NDArray[np.int64]) -> float:

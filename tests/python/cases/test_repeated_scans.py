@@ -18,6 +18,15 @@ def test_rays_seen_repeatedly_give_the_ball(frames: int, noise: float) -> None:
     assert_ball(reconstruct(repeated_rays(1200, frames, noise)))
 
 
+def test_so_do_rays_at_random_with_noise_as_wide_as_some_are_apart() -> None:
+    assert_ball(reconstruct(repeated_rays(3000, 10, 0.3, at_random=True)))
+
+
+@pytest.mark.parametrize("copies", [14, 20, 28])
+def test_copies_are_few_however_many_there_are(copies: int) -> None:
+    assert 1000 < classify(jittered_copies(2000, copies, 1e-6)).kept.sum() < 2000
+
+
 def test_it_does_not_matter_how_often_copies_are_rounded_differently() -> None:
     kept = [classify(jittered_copies(2000, copies, 1e-6)).kept.sum() for copies in (2, 3, 8)]
     assert 1000 < min(kept) <= max(kept) < min(1.05 * min(kept), 2000)

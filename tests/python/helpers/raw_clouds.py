@@ -24,11 +24,12 @@ def with_outliers(count: int, outliers: int) -> Array:
     return np.vstack([sphere_points(count, 1), strewn])
 
 
-def repeated_rays(count: int, frames: int, noise: float) -> Array:
+def repeated_rays(count: int, frames: int, noise: float, at_random: bool = False) -> Array:
     """Return frames of a unit sphere along the same rays; the noise of the range is in spacings of a frame."""
     places = np.arange(count)
     polar, around = np.arccos(1 - (2 * places + 1) / count), places * np.pi * (1 + 5**0.5)
     rays = np.stack([np.sin(polar) * np.cos(around), np.sin(polar) * np.sin(around), np.cos(polar)], axis=1)
+    rays = sphere_points(count, 1) if at_random else rays
     random = np.random.default_rng(1)
     return np.vstack([rays * (1 + random.normal(0, noise * spacing_of(count), (count, 1))) for _ in range(frames)])
 
