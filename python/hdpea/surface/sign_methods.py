@@ -27,7 +27,7 @@ FEWER, MOST_LEFT = 0.5, 0.025
 """How many times as often neighbours may disagree after they have agreed on signs as before, and how often at all.
 
 Where noise is as wide as points are apart, it is 0.9 times and more; of complete clouds of thin walls 0.57 and more, of
-103 of 108 scans of 60 meshes less than 0.5. On the two sides of a wall thinner than half a spacing, which pass for one,
+103 of 108 scans of 52 meshes less than 0.5. On the two sides of a wall thinner than half a spacing, which pass for one,
 neighbours disagree in 3 of 100 cases, of those scans in 2 at most."""
 
 
@@ -72,7 +72,7 @@ def by_winding_number(
     """Take the signs of the winding number's normals; estimates far from these are replaced by them.
 
     Beside large holes of the cloud these are wrong about half a face, and of a part of a room about any: so they only
-    vote, and neighbours agree. Of 108 scans of 60 meshes from two to eight places without sensors, 1.6 % of the points
+    vote, and neighbours agree. Of 108 scans of 52 meshes from two to eight places without sensors, 1.6 % of the points
     are on the wrong side then, 6.8 % by the winding number alone. Through noise neighbours agree with less.
     """
     options, roughness = _core.WnncOptions(), evidence.roughness

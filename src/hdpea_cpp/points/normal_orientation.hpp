@@ -32,7 +32,7 @@ Points orient_normals(const PointsRef& points, const PointsRef& normals, const N
 /// @param points     (n, 3)
 /// @param normals    (n, 3) unit, mostly oriented
 /// @param neighbors  (n, k), -1 pads
-/// @param vote       what a sign counts for. Of 108 scans of 60 meshes from two to eight places 1.6 % of the points are
+/// @param vote       what a sign counts for. Of 108 scans of 52 meshes from two to eight places 1.6 % of the points are
 /// on
 ///                   the wrong side with 0.006 to 0.02, 1.9 % with 0.003, 3.0 % with 0.05
 Points agree_on_signs(const PointsRef& points, const PointsRef& normals, const NeighborsRef& neighbors,
