@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
 from hdpea import _core
 from hdpea.runtime.progress import PhaseCallback
@@ -22,6 +23,9 @@ A smaller width resolves single points, and beside holes half of a thick shell o
 MOST_OF_WALLS = 0.15
 """Largest deviation, in spacings, that counts for the width where it is not noise: walls must keep two sides."""
 
+
+MANY = 0.25
+"""Share of the neighbours of a point below others that are so, too, where it is of an underside: there half are."""
 
 FEWER, MOST_LEFT = 0.5, 0.025
 """How many times as often neighbours may disagree after they have agreed on signs as before, and how often at all.
@@ -53,9 +57,18 @@ def by_view(points: Vectors, directions: Vectors, evidence: SignEvidence, view: 
     signed = turned(directions, view.towards)
     known = np.asarray(cosines(signed, view.towards) > GRAZING)
     if view.below is not None:
-        # Some of an underside's points have by chance none above them.
-        known &= ~(view.below | (view.below[evidence.neighbors] & (evidence.neighbors >= 0)).any(axis=1))
+        known &= ~_near_undersides(view.below, evidence.neighbors)
     return signed if known.all() else _core.orient_normals(points, signed, evidence.neighbors, known)
+
+
+def _near_undersides(below: NDArray[np.bool_], neighbors: NDArray[np.int64]) -> NDArray[np.bool_]:
+    """Return which points (n,) are, or have neighbours, among those `below` others, if many around these are.
+
+    Noise lifts single points; and some of an underside have by chance none above them.
+    """
+    beside = neighbors >= 0
+    of_many = below & ((below[neighbors] & beside).sum(axis=1) >= MANY * beside.sum(axis=1))
+    return np.asarray(of_many | (of_many[neighbors] & beside).any(axis=1))
 
 
 def by_neighbors(points: Vectors, directions: Vectors, evidence: SignEvidence) -> Vectors:

@@ -70,6 +70,15 @@ def test_what_a_lidar_sees_around_it_faces_it(rings: int) -> None:
     assert not says_it_is_a_guess(made)
 
 
+def test_the_underside_of_what_hovers_over_a_floor_faces_down() -> None:
+    floor = np.column_stack([np.random.default_rng(0).uniform(-3, 3, (12_000, 2)), np.zeros(12_000)])
+    middle = np.array([0, 0, 0.7])
+    made = reconstruct(np.vstack([floor, middle + 0.4 * sphere_points(700, 1)]))
+    of_ball = middles(made)[:, 2] > 0.2
+    assert of_ball.sum() > 100
+    assert share_against(made, np.where(of_ball[:, None], middles(made) - middle, UP)) < 0.001
+
+
 def test_land_faces_up_though_a_laser_went_through_its_trees() -> None:
     made = reconstruct(land_with_trees(8_000))
     assert share_against(made, UP) < 0.1  # the trees from below; 0.8 where what is closed decides
