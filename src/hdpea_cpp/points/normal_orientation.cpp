@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "hdpea_cpp/base/checks.hpp"
+#include "hdpea_cpp/base/disjoint_sets.hpp"
 #include "hdpea_cpp/base/errors.hpp"
 #include "hdpea_cpp/base/signed_sets.hpp"
 #include "hdpea_cpp/points/signed_contraction.hpp"
@@ -26,6 +27,8 @@ double carried_cosine(const PointsRef& points, const PointsRef& normals, Index i
 /// joined so cannot be parted by what is seen of a larger part.
 constexpr double small_cost = 0.05;
 constexpr Index most_at_once = 8;
+/// |cosine| above which an edge says something, and the share of those at the border of a part that decides.
+constexpr double conclusive = 0.8, most_of_border = 0.7;
 
 struct Edge {
   double cost;
@@ -88,6 +91,36 @@ Eigen::VectorXd areas_of(const PointsRef& points, const NeighborsRef& neighbors,
   Eigen::VectorXd sorted = areas;
   std::nth_element(sorted.begin(), sorted.begin() + sorted.size() / 2, sorted.end());
   return areas.cwiseMin(most_of_median * sorted(sorted.size() / 2));
+}
+
+/// Turns back each connected part of what was turned unless most edges at its border disagree with the normals given:
+/// on walls as thin as the points are apart, some do either way.
+void turn_back(const PointsRef& points, const PointsRef& given, const NeighborsRef& neighbors, Points& turned) {
+  const Index n = points.rows();
+  const auto is_turned = [&](Index i) { return given.row(i).dot(turned.row(i)) < 0; };
+  DisjointSets parts(n);
+  for (Index i = 0; i < n; ++i) {
+    for (Index j : neighbors.row(i)) {
+      if (j >= 0 && is_turned(i) && is_turned(j)) parts.join(i, j);
+    }
+  }
+  std::vector<Index> edges(static_cast<std::size_t>(n), 0), disagreeing(edges);
+  for (Index i = 0; i < n; ++i) {
+    for (Index j : neighbors.row(i)) {
+      if (j < 0 || is_turned(i) == is_turned(j)) continue;
+      const double cosine = carried_cosine(points, given, i, j);
+      const Index part = parts.find(is_turned(i) ? i : j);
+      edges[part] += std::abs(cosine) > conclusive;
+      disagreeing[part] += cosine < -conclusive;
+    }
+  }
+  std::vector<Index> back;
+  for (Index i = 0; i < n; ++i) {
+    const Index part = parts.find(i);
+    const double least = most_of_border * static_cast<double>(edges[part]);
+    if (is_turned(i) && static_cast<double>(disagreeing[part]) <= least) back.push_back(i);
+  }
+  for (Index i : back) turned.row(i) *= -1;
 }
 
 /// What is summed over a piece of the surface to find the side it faces.
@@ -171,6 +204,7 @@ Points agree_on_signs(const PointsRef& points, const PointsRef& normals, const N
   for (Index i = 0; i < n; ++i) {
     if (pieces.find(i).second != voters_flipped) agreed.row(i) *= -1;
   }
+  turn_back(points, normals, neighbors, agreed);
   return agreed;
 }
 
@@ -181,8 +215,8 @@ double orientation_consistency(const PointsRef& points, const PointsRef& normals
     for (Index j : neighbors.row(i)) {
       if (j < 0) continue;
       const double cosine = carried_cosine(points, normals, i, j);
-      count += std::abs(cosine) > 0.8;
-      agree += cosine > 0.8;
+      count += std::abs(cosine) > conclusive;
+      agree += cosine > conclusive;
     }
   }
   return count == 0 ? 1 : static_cast<double>(agree) / static_cast<double>(count);
