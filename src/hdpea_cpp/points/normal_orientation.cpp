@@ -27,8 +27,10 @@ double carried_cosine(const PointsRef& points, const PointsRef& normals, Index i
 /// joined so cannot be parted by what is seen of a larger part.
 constexpr double small_cost = 0.05;
 constexpr Index most_at_once = 8;
-/// |cosine| above which an edge says something, and the share of those at the border of a part that decides.
+/// |cosine| above which an edge says something, and the share of those at the border of a part that decides; where
+/// there are few, as of a point between two balls that touch, of so many.
 constexpr double conclusive = 0.8, most_of_border = 0.7;
+constexpr Index fewest_edges = 4;
 
 struct Edge {
   double cost;
@@ -117,7 +119,7 @@ void turn_back(const PointsRef& points, const PointsRef& given, const NeighborsR
   std::vector<Index> back;
   for (Index i = 0; i < n; ++i) {
     const Index part = parts.find(i);
-    const double least = most_of_border * static_cast<double>(edges[part]);
+    const double least = most_of_border * static_cast<double>(std::max(edges[part], fewest_edges));
     if (is_turned(i) && static_cast<double>(disagreeing[part]) <= least) back.push_back(i);
   }
   for (Index i : back) turned.row(i) *= -1;
