@@ -85,9 +85,9 @@ def given_signs(points: Vectors, given: Vectors, neighbors: NDArray[np.int64]) -
     contradicting = 1 - _core.orientation_consistency(points, given, beside)
     if contradicting <= 1 - SEAMLESS:
         return GivenSigns(consistency, patchy=False)
-    along_tree = _core.orient_normals(points, given, neighbors)
-    turned = float((np.einsum("nc,nc->n", along_tree, given) < 0).mean())
-    seams = 1 - _core.orientation_consistency(points, along_tree, beside)
+    carried = _core.orient_normals(points, given, neighbors)
+    turned = float((np.einsum("nc,nc->n", carried, given) < 0).mean())
+    seams = 1 - _core.orientation_consistency(points, carried, beside)
     fewer = FEWER_CONTRADICTIONS * seams < contradicting
     return GivenSigns(consistency, patchy=fewer and LEAST_TURNED < turned < 1 - LEAST_TURNED)
 

@@ -99,7 +99,7 @@ Eigen::VectorXd areas_of(const PointsRef& points, const NeighborsRef& neighbors,
 /// on walls as thin as the points are apart, some do either way.
 void turn_back(const PointsRef& points, const PointsRef& given, const NeighborsRef& neighbors, Points& turned) {
   const Index n = points.rows();
-  const auto is_turned = [&](Index i) { return given.row(i).dot(turned.row(i)) < 0; };
+  const Mask is_turned = (given.array() * turned.array()).rowwise().sum() < 0;
   DisjointSets parts(n);
   for (Index i = 0; i < n; ++i) {
     for (Index j : neighbors.row(i)) {
@@ -116,13 +116,11 @@ void turn_back(const PointsRef& points, const PointsRef& given, const NeighborsR
       disagreeing[part] += cosine < -conclusive;
     }
   }
-  std::vector<Index> back;
   for (Index i = 0; i < n; ++i) {
     const Index part = parts.find(i);
     const double least = most_of_border * static_cast<double>(std::max(edges[part], fewest_edges));
-    if (is_turned(i) && static_cast<double>(disagreeing[part]) <= least) back.push_back(i);
+    if (is_turned(i) && static_cast<double>(disagreeing[part]) <= least) turned.row(i) *= -1;
   }
-  for (Index i : back) turned.row(i) *= -1;
 }
 
 /// What is summed over a piece of the surface to find the side it faces.

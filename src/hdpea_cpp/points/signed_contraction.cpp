@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hdpea_cpp/points/signed_contraction.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <queue>
 #include <tuple>
