@@ -12,7 +12,7 @@ from hdpea.frontend.roughness import Roughness
 from hdpea.geometry.thinning import farthest_rows
 from hdpea.runtime.progress import PhaseCallback
 from hdpea.surface.sign_methods import by_winding_number
-from hdpea.surface.signs import Orientation, SignEvidence, Vectors
+from hdpea.surface.signs import Orientation, SignEvidence, Vectors, cosines
 
 DECIDING = 50_000
 """Most points that the sides are decided on; of more, the others follow the nearest of these.
@@ -34,9 +34,11 @@ def by_agreement(
 def _of_all(
     points: Vectors, directions: Vectors, evidence: SignEvidence, progress: PhaseCallback | None
 ) -> Orientation:
-    normals = by_winding_number(points, directions, evidence, progress)
-    agreed = _core.orientation_consistency(points, normals, evidence.neighbors)
-    return Orientation(normals, "wnnc", f"{agreed:.2%} of neighbours agree on the side")
+    signed = by_winding_number(points, directions, evidence, progress)
+    agreed = _core.orientation_consistency(points, signed, evidence.neighbors)
+    normals = _core.turn_at_seams(points, signed, evidence.neighbors)
+    seams = bool((cosines(normals, signed) < 0).any())
+    return Orientation(normals, "wnnc", f"{agreed:.2%} of neighbours agree on the side", seams=seams)
 
 
 def _of_deciding_points(

@@ -53,14 +53,10 @@ def denoised(
         return surface, ()
     roughness = oriented.roughness
     method, choices = _method(options, roughness, oriented.estimated > 0)
+    strips = oriented.doubled or oriented.seams
     with core_errors_translated():
-        # Noise as wide as the points are apart lifts points above others, too.
-        # And where walls are thin, sides may be wrong that were computed, or are those of estimated normals turned to
-        # their sensors. Trees are no second scan of the ground below.
-        sure = oriented.method == "file" or (oriented.from_above and not oriented.overhung)
-        told_apart = options.denoise == "auto" and roughness.noise <= ROUGH and sure
-        layered = told_apart and (oriented.doubled or have_layers(surface.points_in_unit, surface.normals))
-        if layered and oriented.doubled:
+        layered = options.denoise == "auto" and _are_scanned_twice(oriented)
+        if layered and strips:
             surface = replace(surface, normals=mean_normals(surface.points_in_unit, surface.normals))
     if layered:
         method, choices = "mls", (Choice("denoise", "mls", "", LAYERED),)
@@ -74,10 +70,23 @@ def denoised(
     with core_errors_translated():
         points, normals = _fitted(surface, count, progress)
         if layered and roughness.deviation <= ROUGH:
-            rows = layered_region(surface.points_in_unit, surface.normals, doubled=oriented.doubled)
+            rows = layered_region(surface.points_in_unit, surface.normals, doubled=strips)
             points, normals = _in_layers(oriented.surface, rows, points, normals)
     tell(progress, "denoising", 1)
     return Surface.of(surface.frame, points, normals), choices
+
+
+def _are_scanned_twice(oriented: OrientedSurface) -> bool:
+    """Tell whether layers that face the same way are misplaced scans of one surface.
+
+    Noise as wide as the points are apart lifts points above others, too. And where walls are thin, sides may be wrong
+    that were computed, or are those of estimated normals turned to their sensors. Trees are no second scan of the
+    ground below.
+    """
+    sure = oriented.method == "file" or oriented.seams or (oriented.from_above and not oriented.overhung)
+    if not sure or oriented.roughness.noise > ROUGH:
+        return False
+    return oriented.doubled or have_layers(oriented.surface.points_in_unit, oriented.surface.normals)
 
 
 def _fitted(surface: Surface, count: int, progress: ProgressCallback | None) -> tuple[Vectors, Vectors]:

@@ -55,6 +55,8 @@ class OrientedSurface:
         From where the points were seen, where that decided the signs.
     sensors_refused
         Whether sensors were known, and cannot have seen the points.
+    seams
+        Whether strips that overlap and do not meet had opposite sides, and were turned.
     parts
         Rows of each part that was sampled far more densely than the scene it lies in.
     """
@@ -68,6 +70,7 @@ class OrientedSurface:
     choices: tuple[Choice, ...] = ()
     view: View | None = None
     sensors_refused: bool = False
+    seams: bool = False
     parts: tuple[NDArray[np.int64], ...] = ()
 
     @property
@@ -159,6 +162,7 @@ def oriented_surface(
         choices=choices,
         view=orientation.view,
         sensors_refused=orientation.sensors_refused,
+        seams=orientation.seams,
         parts=parts,
     )
 

@@ -73,6 +73,8 @@ class Orientation:
         From where the points were seen, where that decided the signs.
     sensors_refused
         Whether sensors were known, and cannot have seen the points.
+    seams
+        Whether strips that overlap and do not meet had opposite sides, and were turned.
     """
 
     normals: Vectors
@@ -80,6 +82,7 @@ class Orientation:
     why: str = ""
     view: View | None = None
     sensors_refused: bool = False
+    seams: bool = False
 
 
 def turned(directions: Vectors, towards: Vectors) -> Vectors:

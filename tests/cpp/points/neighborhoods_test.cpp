@@ -13,6 +13,7 @@
 #include "hdpea_cpp/points/neighbors.hpp"
 #include "hdpea_cpp/points/normal_orientation.hpp"
 #include "hdpea_cpp/points/normals.hpp"
+#include "hdpea_cpp/points/seams.hpp"
 #include "hdpea_cpp/points/sheets.hpp"
 #include "hdpea_cpp/points/tangent_basis.hpp"
 #include "helpers/clouds.hpp"
@@ -34,6 +35,7 @@ const Function kFunctions[] = {
     {"orientation_consistency", [](auto&... given) { orientation_consistency(given...); }},
     {"sheet_neighbors", [](auto&... given) { sheet_neighbors(given...); }},
     {"tangent_bases", [](auto&... given) { tangent_bases(given...); }},
+    {"turn_at_seams", [](auto&... given) { turn_at_seams(given...); }},
 };
 
 class Neighborhoods : public testing::TestWithParam<Function> {

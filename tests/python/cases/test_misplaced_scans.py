@@ -6,7 +6,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from helpers.clouds import Array, sphere_points
-from helpers.raw_clouds import overlapping_strips, two_scans_of_a_ball, two_scans_of_a_wall
+from helpers.raw_clouds import overlapping_strips, turntable, two_scans_of_a_ball, two_scans_of_a_wall
 from helpers.raw_meshes import area, assert_ball, middles, share_against
 
 from hdpea import reconstruct
@@ -57,6 +57,15 @@ def test_strips_that_overlap_are_one_sheet_that_faces_up(spacings: float) -> Non
     mesh = made.report.mesh
     assert (mesh.components, mesh.boundary_loops, mesh.self_intersections) == (1, 1, 0)
     assert share_against(made, np.array([0, 0, 1.0])) < 0.001
+    assert not made.report.missed
+
+
+@pytest.mark.parametrize("spacings", [2.0, 2.5])
+def test_a_scan_whose_end_does_not_meet_its_beginning_is_one_sheet(spacings: float) -> None:
+    made = reconstruct(turntable(6000, spacings))
+    mesh = made.report.mesh
+    assert (mesh.components, mesh.boundary_loops, mesh.self_intersections) == (1, 2, 0)
+    assert share_against(made, middles(made) * [1, 1, 0]) < 0.001
     assert not made.report.missed
 
 

@@ -131,6 +131,7 @@ CALLS: dict[str, tuple[Callable[..., Any], Arguments]] = {
         {"coordinates": np.hstack([POINTS, POINTS]), "normals": NORMALS, "neighbors": NEIGHBORS},
     ),
     "tangent_bases_across": (_core.tangent_bases_across, {"normals": NORMALS}),
+    "turn_at_seams": (_core.turn_at_seams, _cloud()),
     "wnnc_normals": (lambda points: _core.wnnc_normals(points, _core.WnncOptions()), {"points": POINTS}),
 }
 

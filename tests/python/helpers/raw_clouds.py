@@ -72,6 +72,14 @@ def overlapping_strips(count: int, spacings: float) -> Array:
     return np.vstack(strips)
 
 
+def turntable(count: int, spacings: float, degrees: float = 400) -> Array:
+    """Return an open tube, radius 1 and height 2, scanned all around and further, where it is so many spacings off."""
+    random = np.random.default_rng(0)
+    turn, height = np.radians(random.uniform(0, degrees, count)), random.uniform(-1, 1, count)
+    radius = 1 + spacings * np.sqrt(2 * np.radians(degrees) / count) * turn / TAU
+    return np.stack([radius * np.cos(turn), radius * np.sin(turn), height], axis=1)
+
+
 def rings(rows: int, ratio: float) -> Array:
     """Return circles of latitude of the unit sphere, turned at random, `ratio` times denser along than across."""
     circles = []
