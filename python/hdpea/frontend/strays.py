@@ -52,7 +52,7 @@ ROUNDS = 20
 """Most rounds: each lays open what hid behind the strays of the one before, and most clouds are settled after five."""
 
 
-def find_strays(points: NDArray[np.float64], nearest: NDArray[np.int64], on_lines: bool = False) -> NDArray[np.bool_]:
+def find_strays(points: NDArray[np.float64], nearest: NDArray[np.int64], on_lines: bool) -> NDArray[np.bool_]:
     """Return which points (n, 3) are strays, (n,) bool: not one in ten thousand where there are none.
 
     A point is a stray where its 12th or 24th nearest point is twice as far away as the same is from the points around
