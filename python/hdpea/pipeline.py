@@ -63,7 +63,7 @@ class _Made:
 
 
 def reconstruct_cloud(
-    cloud: PointCloud, options: Options, progress: ProgressCallback | None = None, embedder: Embedder | None = None
+    cloud: PointCloud, options: Options, progress: ProgressCallback | None, embedder: Embedder | None
 ) -> Reconstruction:
     """Take a cleaned cloud, as ``hdpea.reading`` returns it, through all stages.
 

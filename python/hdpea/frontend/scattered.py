@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 
 from hdpea import _core
 from hdpea.frontend.standing import Standing
+from hdpea.geometry.covariances import covariances
 from hdpea.geometry.thinning import rows_along
 from hdpea.runtime.blocks import in_blocks
 
@@ -78,9 +79,7 @@ def _apart(standing: Standing, strays: NDArray[np.int64], flat: NDArray[np.int64
 
 def _ratios(standing: Standing, rows: NDArray[np.int64]) -> NDArray[np.float64]:
     """Return the ratios (m, 2) of the least deviation of the points nearest to each row to the middle and largest."""
-    near = standing.points[standing.nearest[rows, :NEAREST]]
-    around = near - near.mean(axis=1, keepdims=True)
-    variances = np.linalg.eigvalsh(around.swapaxes(1, 2) @ around)
+    variances = np.linalg.eigvalsh(covariances(standing.points[standing.nearest[rows, :NEAREST]]))
     # What is distinct may still be too near for squares.
     variances = np.maximum(variances, np.finfo(np.float64).tiny)
     return np.asarray(np.sqrt(variances[:, :1] / variances[:, 1:]))

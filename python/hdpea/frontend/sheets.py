@@ -7,6 +7,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hdpea import _core
+from hdpea.frontend.standing import FARTHER, usual
+from hdpea.geometry.covariances import covariances
 
 SHEET_POINTS, FLAT = 16, 0.1
 """Nearest points with which a point lies in a sheet, and the ratio of their deviations across and along, the lesser of
@@ -29,15 +31,11 @@ its company lies in one already.
 Of 544 points of surfaces in eight depth frames each of 20 models that pass for strays 248 come back, of 4,832 flying
 pixels 15, next to these; and none of 3,600 strays in the boxes of the models."""
 
-FARTHEST, FARTHER = 4.0, 2.0
-"""Distance to the eighth stray in the same unit (flying pixels have 4.4 and more), and in those of the eight to theirs:
-strays are some times in the plane of two rows of others."""
+FARTHEST = 4.0
+"""Distance to the eighth stray in the same unit: flying pixels have 4.4 and more."""
 
 LEAST_WIDTH = 0.15
 """Width by length of a sheet: a line is none, nor are three points far from an edge together with that."""
-
-SURROUNDINGS = 0.25
-"""Quantile of the distances around that is their unit: strays among them do not matter."""
 
 NEXT_TO = 8
 """Nearest points among which one in a sheet has its next, on the way to what is no stray: heaps far from everything are
@@ -93,9 +91,10 @@ def _by_themselves(
     variances = _variances(strays, near)
     beside = nearest[rows, :SPARSE_POINTS]
     apart = np.linalg.norm(points[nearest[beside, SPARSE_POINTS - 1]] - points[beside], axis=2)
-    unit = np.quantile(apart, SURROUNDINGS, axis=1)
+    unit = usual(apart)
     wide = variances[:, 1] > LEAST_WIDTH**2 * variances[:, 2]
     reached = np.linalg.norm(strays[near[:, -1]] - strays, axis=1)
+    # Strays are some times in the plane of two rows of others.
     wide &= reached < np.minimum(FARTHEST * unit, FARTHER * np.median(reached[near[:, 1:]], axis=1))
     thickness = np.sqrt(variances[:, 0])
     thin = wide & (thickness < THIN * unit)
@@ -110,8 +109,7 @@ def _by_themselves(
 
 def _variances(points: NDArray[np.float64], groups: NDArray[np.int64]) -> NDArray[np.float64]:
     """Return the variances (m, 3), ascending, of the points (n, 3) of each group (m, k)."""
-    around = points[groups] - points[groups].mean(axis=1, keepdims=True)
-    return np.asarray(np.linalg.eigvalsh(around.swapaxes(1, 2) @ around / groups.shape[1]).clip(min=0))
+    return np.asarray(np.linalg.eigvalsh(covariances(points[groups])).clip(min=0))
 
 
 def _border_on(

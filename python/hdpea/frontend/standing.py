@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The points of a cloud that still stand while others are dropped, each with its nearest ones among them."""
+"""The points of a cloud that still stand while others are dropped, and how far apart those near each other are."""
 
 from __future__ import annotations
 
@@ -7,6 +7,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hdpea import _core
+
+FARTHER = 2.0
+"""How many times farther from its neighbours than these from theirs a stray is: of 40,000 points spread at random over
+a surface none comes to it."""
+
+SURROUNDINGS = 0.25
+"""Quantile of the neighbours' distances that it is compared with: a quarter of them may tell, the others be strays."""
 
 
 class Standing:
@@ -49,3 +56,8 @@ class Standing:
         """Return how far each point's `count`-th nearest is away, (n,): of those that are left."""
         offsets = self.points[self.nearest[:, count - 1]] - self.points
         return np.asarray(np.sqrt(np.einsum("nc,nc->n", offsets, offsets)))
+
+
+def usual(distances: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return what is usual (m,) of the distances (m, k) of neighbours, whether strays are among these or not."""
+    return np.asarray(np.quantile(distances, SURROUNDINGS, axis=1))

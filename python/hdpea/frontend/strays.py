@@ -9,7 +9,8 @@ from numpy.typing import NDArray
 from hdpea import _core
 from hdpea.frontend.scattered import scattered
 from hdpea.frontend.sheets import strays_in_sheets
-from hdpea.frontend.standing import Standing
+from hdpea.frontend.standing import FARTHER, Standing, usual
+from hdpea.geometry.covariances import covariances
 from hdpea.geometry.thinning import rows_along
 from hdpea.runtime.blocks import in_blocks
 
@@ -20,12 +21,6 @@ SPARSE, FAR_REACH = 3.0, 96
 """How many times farther than most a point's neighbours are where it is compared once more, over so many of them.
 
 Of 200 strays in the box of a flat pair of scissors 24 lay so near each other that they were each other's company."""
-
-FARTHER = 2.0
-"""How many times farther than theirs: of 40,000 points spread at random over a surface none comes to it."""
-
-SURROUNDINGS = 0.25
-"""Quantile of the neighbours' distances that it is compared with: a quarter of them may tell, the others be strays."""
 
 PLANE_POINTS = 12
 """Nearest points whose plane, fitted without the point itself, it lies off."""
@@ -57,7 +52,7 @@ ROUNDS = 20
 """Most rounds: each lays open what hid behind the strays of the one before, and most clouds are settled after five."""
 
 
-def find_strays(points: NDArray[np.float64], nearest: NDArray[np.int64], on_lines: bool = False) -> NDArray[np.bool_]:
+def find_strays(points: NDArray[np.float64], nearest: NDArray[np.int64], on_lines: bool) -> NDArray[np.bool_]:
     """Return which points (n, 3) are strays, (n,) bool: not one in ten thousand where there are none.
 
     A point is a stray where its 12th or 24th nearest point is twice as far away as the same is from the points around
@@ -125,18 +120,14 @@ def _lie_far_off(
     last = left[_core.nearest_neighbors(standing, places, FAR_REACH + 1)[:, -1]]
     reached = np.zeros(len(points))
     reached[asked] = np.linalg.norm(points[last] - places, axis=1)
-    return np.asarray(reached[rows] > farther * np.quantile(reached[nearest], SURROUNDINGS, axis=1))
+    return np.asarray(reached[rows] > farther * usual(reached[nearest]))
 
 
 def _around(
-    values: NDArray[np.float64], standing: Standing, rows: NDArray[np.int64], count: int
+    distances: NDArray[np.float64], standing: Standing, rows: NDArray[np.int64], count: int
 ) -> NDArray[np.float64]:
-    """Return a low quantile (m,) of the values (n,) of the `count` points nearest to each of the `rows` (m,)."""
-
-    def quantiles(block: slice) -> NDArray[np.float64]:
-        return np.asarray(np.quantile(values[standing.nearest[rows[block], :count]], SURROUNDINGS, axis=1))
-
-    return in_blocks(quantiles, len(rows))
+    """Return what is usual (m,) of the distances (n,) of the `count` points nearest to each of the `rows` (m,)."""
+    return in_blocks(lambda block: usual(distances[standing.nearest[rows[block], :count]]), len(rows))
 
 
 def _show_planes(standing: Standing) -> bool:
@@ -155,12 +146,10 @@ def _planes(
     own point along the first of these, (m,).
     """
     near = standing.points[standing.nearest[rows, :PLANE_POINTS]] - standing.points[rows, None]
-    middle = near.mean(axis=1)
-    around = near - middle[:, None]
-    variances, axes = np.linalg.eigh(around.swapaxes(1, 2) @ around / PLANE_POINTS)
+    variances, axes = np.linalg.eigh(covariances(near))
     # What is distinct may still be too near for squares.
     least = np.finfo(np.float64).tiny
-    return np.maximum(variances, least), axes, np.einsum("nc,nc->n", middle, axes[:, :, 0])
+    return np.maximum(variances, least), axes, np.einsum("nc,nc->n", near.mean(axis=1), axes[:, :, 0])
 
 
 def _off_the_plane(standing: Standing, rows: NDArray[np.int64], spacing: NDArray[np.float64]) -> NDArray[np.bool_]:

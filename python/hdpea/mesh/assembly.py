@@ -49,7 +49,7 @@ def assemble_mesh(
     surface: Surface,
     coordinates: NDArray[np.float64],
     bases: NDArray[np.float64],
-    options: Options | None = None,
+    options: Options,
     progress: ProgressCallback | None = None,
     clock: StageClock | None = None,
     shown: PointsShown | None = None,
@@ -78,7 +78,7 @@ def assemble_mesh(
     Interrupted
         If `progress` cancels.
     """
-    options, clock = options or Options(), clock or StageClock()
+    clock = clock or StageClock()
     shown = shown or PointsShown(len(surface.points_in_unit))
     counts = _Counts(
         options.particles_of(len(surface.points_in_unit), shown),

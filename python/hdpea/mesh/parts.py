@@ -30,10 +30,10 @@ def mesh_surface(
     surface: Surface,
     options: Options,
     shown: PointsShown,
-    parts: tuple[NDArray[np.int64], ...] = (),
-    progress: ProgressCallback | None = None,
-    clock: StageClock | None = None,
-    embedder: Embedder | None = None,
+    parts: tuple[NDArray[np.int64], ...],
+    progress: ProgressCallback | None,
+    clock: StageClock,
+    embedder: Embedder | None,
 ) -> tuple[Mesh, tuple[Choice, ...]]:
     """Embed a surface and mesh it.
 
@@ -55,7 +55,6 @@ def mesh_surface(
     choices
         What was chosen automatically; of parts, for what is left of the scene.
     """
-    clock = clock or StageClock()
 
     def made_of(part: Surface, budget: Options, shown: PointsShown) -> tuple[Mesh, tuple[Choice, ...]]:
         resolution = budget.resolution_of(shown.count)

@@ -53,7 +53,7 @@ class Columns:
         unshifted = self.table[:, [i for i, place in enumerate(self.places) if place == at]]
         return with_fractions(self.table[:, 1:]) >= 3 and not with_fractions(unshifted)
 
-    def without_row_numbers(self, notes: list[str], told: bool = False) -> Columns:
+    def without_row_numbers(self, notes: list[str], told: bool) -> Columns:
         """Return the columns without a first one that numbers the rows, if there are three others; note that.
 
         It does if ``are_numbered`` says so, or if the file has `told` it.

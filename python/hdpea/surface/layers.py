@@ -87,9 +87,7 @@ def layered_samples(points: NDArray[np.float64], normals: NDArray[np.float64]) -
     return rows[are_layered(points, normals, rows, around, _most_height(points, rows, around, MOST_HEIGHT))]
 
 
-def layered_region(
-    points: NDArray[np.float64], normals: NDArray[np.float64], *, doubled: bool = False
-) -> NDArray[np.int64]:
+def layered_region(points: NDArray[np.float64], normals: NDArray[np.float64], *, doubled: bool) -> NDArray[np.int64]:
     """Return the rows (m,) of the points (n, 3) in layers and of those around them.
 
     Where strips are known to overlap, these may lie farther apart.

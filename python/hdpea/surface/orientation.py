@@ -57,9 +57,9 @@ def orient(
     directions: Vectors,
     evidence: SignEvidence,
     method: str,
-    seen_from: Vectors | None = None,
-    progress: PhaseCallback | None = None,
-    parts: tuple[NDArray[np.int64], ...] = (),
+    seen_from: Vectors | None,
+    progress: PhaseCallback | None,
+    parts: tuple[NDArray[np.int64], ...],
 ) -> Orientation:
     """Give normals their signs by the given method of ``NormalOptions.orient``.
 

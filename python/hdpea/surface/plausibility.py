@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hdpea import _core
+from hdpea.geometry.covariances import relative_covariances
 from hdpea.geometry.thinning import rows_along
 
 SAMPLES = 2_000
@@ -73,13 +74,10 @@ def _variance_by_noise(directions: NDArray[np.float64], around: NDArray[np.float
 
 def _variance_along(directions: NDArray[np.float64], around: NDArray[np.float64]) -> float:
     """Return the variance of points (m, k, 3) along directions (m, 3): 0 is the least there is, 1 that at random."""
-    offsets = around - around.mean(axis=1, keepdims=True)
-    scatter = offsets.swapaxes(1, 2) @ offsets
-    total = np.trace(scatter, axis1=1, axis2=2)
     # Neighbourhoods count alike, whatever their size; those of points that are equal in the unit frame, not at all.
-    scatter /= np.where(total > 0, total, 1)[:, None, None]
-    least = np.linalg.eigvalsh(scatter)[:, 0]
-    along = np.einsum("nc,ncd,nd->n", directions, scatter, directions)
-    random = np.trace(scatter, axis1=1, axis2=2) / 3
+    spread = relative_covariances(around)
+    least = np.linalg.eigvalsh(spread)[:, 0]
+    along = np.einsum("nc,ncd,nd->n", directions, spread, directions)
+    random = np.trace(spread, axis1=1, axis2=2) / 3
     excess = float((random - least).sum())
     return float((along - least).sum()) / excess if excess > 0 else 0.0

@@ -79,7 +79,7 @@ def by_winding_number(
     points: Vectors,
     directions: Vectors,
     evidence: SignEvidence,
-    progress: PhaseCallback | None = None,
+    progress: PhaseCallback | None,
 ) -> Vectors:
     """Take the signs of the winding number's normals; estimates far from these are replaced by them.
 

@@ -14,8 +14,6 @@ namespace hdpea {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-// What is as far as before may come out a little farther.
-constexpr double kRounding = 1 + 1e-9;
 
 /// Of so many nearest points, one must have its disk within the error. Beside a crease most lie on the other side.
 constexpr std::size_t kNearest = 24;

@@ -23,8 +23,6 @@ constexpr Index kCollapsesPerReport = 100;
 constexpr int kRounds = 4, kSplits = 5;
 /// A point with less than this of the weight of a corner splits the edge across from it.
 constexpr double kNearEdge = 0.15;
-/// What was to stay within the error may come out a little farther.
-constexpr double kRounding = 1 + 1e-9;
 
 Index excess(const EditableMesh& mesh, const MeshBudget& budget) {
   return std::max(mesh.vertices_left() - budget.vertices, mesh.faces_left() - budget.faces);

@@ -5,6 +5,9 @@
 
 namespace hdpea {
 
+/// What was to stay within a distance may come out a little farther.
+constexpr double kRounding = 1 + 1e-9;
+
 /// Points of a triangle mesh, one row per query.
 struct SurfacePoints {
   /// (m) Euclidean distance from the query.

@@ -32,47 +32,44 @@ constexpr Index most_at_once = 8;
 constexpr double conclusive = 0.8, most_of_border = 0.7;
 constexpr Index fewest_edges = 4;
 
-struct Edge {
-  double cost;
-  Index i, j;
-  bool operator<(const Edge& other) const { return std::tie(cost, i, j) < std::tie(other.cost, other.i, other.j); }
-};
+/// 1 - |cosine|: how little an edge says.
+double cost(const SignedEdge& edge) { return 1 - std::abs(edge.weight); }
 
-std::vector<Edge> sorted_edges(const PointsRef& points, const PointsRef& normals, const NeighborsRef& neighbors) {
-  std::vector<Edge> edges;
+/// The edges to neighbours, weighted by the carried cosine, by ascending cost.
+std::vector<SignedEdge> sorted_edges(const PointsRef& points, const PointsRef& normals, const NeighborsRef& neighbors) {
+  std::vector<SignedEdge> edges;
   for (Index i = 0; i < neighbors.rows(); ++i) {
     for (Index j : neighbors.row(i)) {
-      if (j >= 0)
-        edges.push_back({1 - std::abs(carried_cosine(points, normals, i, j)), std::min(i, j), std::max(i, j)});
+      const auto [low, high] = std::minmax(i, j);
+      if (j >= 0) edges.push_back({low, high, carried_cosine(points, normals, low, high)});
     }
   }
-  std::sort(edges.begin(), edges.end());
+  const auto key = [](const SignedEdge& edge) { return std::tuple(cost(edge), edge.i, edge.j); };
+  std::sort(edges.begin(), edges.end(), [&](const auto& a, const auto& b) { return key(a) < key(b); });
   return edges;
 }
 
 /// Sets of points with the signs that most of their edges agree with.
 ///
-/// @param known  (n) whose signs are right: they are one set; or none
+/// @param known  (n) whose signs are right: they are one set
 /// @param vote   weight of the sign that each point has on entry, towards the member n; with 0 there is none
 SignedSets joined_by_edges(const PointsRef& points, const PointsRef& normals, const NeighborsRef& neighbors,
-                           const MaskRef& known, double vote) {
+                           const Mask& known, double vote) {
   const Index n = points.rows();
-  const auto is_known = [&](Index i) { return known.size() > 0 && known(i); };
   SignedSets sets(n + (vote > 0));
   for (Index i = 0, first = -1; i < n; ++i) {
-    if (!is_known(i)) continue;
+    if (!known(i)) continue;
     if (first < 0) first = i;
     sets.join(first, i, false);
   }
   std::vector<SignedEdge> edges;
-  for (const Edge& edge : sorted_edges(points, normals, neighbors)) {
-    if (is_known(edge.i) && is_known(edge.j)) continue;
-    const double cosine = carried_cosine(points, normals, edge.i, edge.j);
-    if (edge.cost < small_cost && !is_known(edge.i) && !is_known(edge.j) &&
+  for (const SignedEdge& edge : sorted_edges(points, normals, neighbors)) {
+    if (known(edge.i) && known(edge.j)) continue;
+    if (cost(edge) < small_cost && !known(edge.i) && !known(edge.j) &&
         sets.size(edge.i) + sets.size(edge.j) <= most_at_once) {
-      sets.join(edge.i, edge.j, cosine < 0);
+      sets.join(edge.i, edge.j, edge.weight < 0);
     } else {
-      edges.push_back({edge.i, edge.j, cosine});
+      edges.push_back(edge);
     }
   }
   for (Index i = 0; vote > 0 && i < n; ++i) edges.push_back({i, n, vote});
@@ -167,7 +164,7 @@ Points orient_normals(const PointsRef& points, const PointsRef& normals, const N
   const Index n = points.rows();
   require_neighborhoods(points, normals, neighbors);
   require(known.size() == 0 || known.size() == n, "what is known must be so of each point");
-  const auto is_known = [&](Index i) { return known.size() > 0 && known(i); };
+  const Mask is_known = known.size() == n ? Mask(known) : Mask::Constant(n, false);
   Points oriented = normals;
   for (Index i = 0; i < n; ++i) {
     if (is_known(i)) continue;
@@ -176,7 +173,7 @@ Points orient_normals(const PointsRef& points, const PointsRef& normals, const N
     oriented.row(i).cwiseAbs().maxCoeff(&largest);
     if (oriented(i, largest) < 0) oriented.row(i) *= -1;
   }
-  SignedSets pieces = joined_by_edges(points, oriented, neighbors, known, 0);
+  SignedSets pieces = joined_by_edges(points, oriented, neighbors, is_known, 0);
   std::vector<Index> piece(static_cast<std::size_t>(n));
   for (Index i = 0; i < n; ++i) {
     const auto [root, flipped] = pieces.find(i);
@@ -198,7 +195,7 @@ Points agree_on_signs(const PointsRef& points, const PointsRef& normals, const N
   require(vote > 0, "a vote must count for something");
   require_neighborhoods(points, normals, neighbors);
   const Index n = points.rows();
-  SignedSets pieces = joined_by_edges(points, normals, neighbors, Mask(), vote);
+  SignedSets pieces = joined_by_edges(points, normals, neighbors, Mask::Constant(n, false), vote);
   const bool voters_flipped = pieces.find(n).second;
   Points agreed = normals;
   for (Index i = 0; i < n; ++i) {
