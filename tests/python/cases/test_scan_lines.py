@@ -6,7 +6,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from helpers.clouds import TAU
-from helpers.raw_clouds import ROOM, contours, lidar_ground, lidar_room, rings, tube_profiles
+from helpers.raw_clouds import ROOM, contours, crossed_profiles, lidar_ground, lidar_room, rings, tube_profiles
 from helpers.raw_meshes import area, assert_ball, middles, share_against, share_of_area
 from helpers.reconstructions import area_vectors
 
@@ -50,6 +50,22 @@ def test_a_room_seen_by_sixteen_beams_has_no_sheets_in_its_air() -> None:
     assert share_of_area(made, inside > 0.5) < 0.02
     missed = _core.closest_surface_points(made.vertices, made.faces, points).distance > 0.2
     assert missed.mean() < 0.05 or made.report.missed
+
+
+@pytest.mark.parametrize("ratio", [12, 20])
+def test_profiles_both_ways_give_one_sheet(ratio: int) -> None:
+    made = reconstruct(crossed_profiles(20, ratio))
+    mesh = made.report.mesh
+    assert (mesh.components, mesh.boundary_loops, mesh.self_intersections) == (1, 1, 0)
+    assert area(made) == pytest.approx(19**2, rel=0.08)
+    assert share_against(made, np.array([0, 0, 1.0])) < 0.01
+    assert not made.report.missed
+
+
+def test_ground_whose_far_rings_are_a_small_share_of_the_points_is_whole() -> None:
+    made = reconstruct(lidar_ground(128, 0.6))
+    assert made.report.mesh.components == 1
+    assert area(made) == pytest.approx(np.pi * (39**2 - 3.7**2), rel=0.02)
 
 
 @pytest.mark.parametrize("beams", [32, pytest.param(64, marks=pytest.mark.slow)])

@@ -100,6 +100,15 @@ def contours(rows: int, of_each: int) -> Array:
     return on_sphere.reshape(-1, 3) * [1, 0.7, 1.2]
 
 
+def crossed_profiles(rows: int, ratio: int) -> Array:
+    """Return profiles of gentle hills along x and y, so many each way and one apart, `ratio` times denser along each."""
+    across = np.arange(float(rows))
+    along = np.arange((rows - 1) * ratio + 1) / ratio
+    x, y = (grid.ravel() for grid in np.meshgrid(along, across))
+    both = np.unique(np.concatenate([np.stack([x, y], axis=1), np.stack([y, x], axis=1)]), axis=0)
+    return np.column_stack([both, 0.8 * np.sin(both[:, 0] / 4) * np.cos(both[:, 1] / 5)])
+
+
 def tube_profiles(rows: int, of_each: int) -> Array:
     """Return circles of radius 1, one every 1 along x."""
     along, around = np.meshgrid(np.arange(float(rows)), np.arange(of_each) * TAU / of_each, indexing="ij")
