@@ -101,7 +101,7 @@ def contours(rows: int, of_each: int) -> Array:
 
 
 def crossed_profiles(rows: int, ratio: int) -> Array:
-    """Return profiles of gentle hills along x and y, so many each way and one apart, `ratio` times denser along each."""
+    """Return profiles of gentle hills, so many along x and along y and one apart, `ratio` times denser along each."""
     across = np.arange(float(rows))
     along = np.arange((rows - 1) * ratio + 1) / ratio
     x, y = (grid.ravel() for grid in np.meshgrid(along, across))
