@@ -13,8 +13,9 @@ from helpers.raw_clouds import (
     land_with_trees,
     lidar_frame,
     table_from_above,
+    turned_wall,
 )
-from helpers.raw_meshes import BALL, middles, says_it_is_a_guess, share_against
+from helpers.raw_meshes import BALL, area, middles, says_it_is_a_guess, share_against
 from helpers.reconstructions import area_vectors, volume
 
 from hdpea import reconstruct
@@ -37,6 +38,17 @@ def test_a_ball_on_a_floor_faces_out() -> None:
     outward = (normals * places).sum(axis=1)[on_ball]
     assert on_ball.sum() > 500
     assert (outward > 0).mean() > 0.995
+
+
+@pytest.mark.parametrize("on_a_grid", [False, True])
+@pytest.mark.parametrize("count", [300, 1500])
+@pytest.mark.parametrize("degrees", [60, 90])
+def test_a_flat_wall_is_one_sheet_however_it_is_turned(count: int, on_a_grid: bool, degrees: float) -> None:
+    made = reconstruct(turned_wall(count, on_a_grid, degrees))
+    mesh = made.report.mesh
+    assert (mesh.components, mesh.boundary_loops, mesh.self_intersections) == (1, 1, 0)
+    assert area(made) == pytest.approx(12, rel=0.12)
+    assert not made.report.missed
 
 
 def test_all_pieces_of_a_height_field_face_the_same_way() -> None:

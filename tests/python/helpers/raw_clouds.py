@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import numpy as np
 from helpers.clouds import TAU, Array, sphere_points
+from scipy.spatial.transform import Rotation
 
 ELLIPSOID = np.array([1.0, 0.8, 0.6])
 ROOM = np.array([[-8.0, -6.0, 0.0], [8.0, 6.0, 3.0]])
@@ -135,6 +136,15 @@ def lidar_room(beams: int, step: float) -> Array:
     steep = np.where(abs(rays) > 1e-12, rays, 1e-12)
     ranges = (np.where(steep > 0, ROOM[1] - sensor, ROOM[0] - sensor) / steep).min(axis=1)
     return sensor + rays * (ranges + np.random.default_rng(0).normal(0, 0.01, len(rays)))[:, None]
+
+
+def turned_wall(count: int, on_a_grid: bool, degrees: float) -> Array:
+    """Return points of a flat wall, 4 by 3, that is neither level nor upright."""
+    rows = round(np.sqrt(count * 3 / 4))
+    grid = np.stack(np.meshgrid(np.linspace(0, 4, round(rows * 4 / 3)), np.linspace(0, 3, rows)), axis=-1)
+    random = np.random.default_rng(count).uniform(0, [4, 3], (count, 2))
+    flat = np.pad(grid.reshape(-1, 2) if on_a_grid else random, ((0, 0), (0, 1)))
+    return flat @ Rotation.from_rotvec([np.radians(degrees), 0.2, 0.1]).as_matrix().T
 
 
 def ball_on_a_floor(count: int) -> Array:
