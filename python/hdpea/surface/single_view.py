@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hdpea import _core
+from hdpea.frontend.one_layer import are_of_one_layer
 from hdpea.frontend.roughness import Roughness
 from hdpea.geometry.thinning import rows_along
 
@@ -55,7 +56,7 @@ CGAL's b9_training, from an aeroplane, has 0.14, 0.25 and 0.93. Of 105 scans of 
 that are as level have 0.75 and more in layers; of those with the fewest, 0.37, it is 0.4."""
 
 MOST_NOISE = 0.5
-"""Most noise of a height field, in spacings.
+"""Most noise of a height field, in spacings, where it is not asked whether the points are of one layer.
 
 With more, the two sides of a thin plate pass for one layer: of 3 of 63 training meshes with noise of 0.3 % of the
 diagonal, 0.7 spacings and more. They would pass in a camera's view, too, but closed shapes are rarely before one."""
@@ -151,7 +152,9 @@ def _from_origin(points: Vectors, directions: Vectors, roughness: Roughness, ori
 
 
 def _from_above(points: Vectors, directions: Vectors, roughness: Roughness, _origin: Vectors) -> View | None:
-    if roughness.noise > MOST_NOISE or abs(directions[:, 2]).mean() < LEAST_UPWARD:
+    if abs(directions[:, 2]).mean() < LEAST_UPWARD:
+        return None
+    if roughness.noise > MOST_NOISE and not are_of_one_layer(points):
         return None
     up = np.tile([0.0, 0.0, 1.0], (len(points), 1))
     places = points * [1.0, 1.0, 0.0]

@@ -12,6 +12,7 @@ from helpers.raw_clouds import (
     land_with_a_cliff,
     land_with_trees,
     lidar_frame,
+    noisy_ground,
     table_from_above,
     turned_wall,
 )
@@ -19,6 +20,7 @@ from helpers.raw_meshes import BALL, area, middles, says_it_is_a_guess, share_ag
 from helpers.reconstructions import area_vectors, volume
 
 from hdpea import _core, reconstruct
+from hdpea.frontend.one_layer import are_of_one_layer
 
 UP = np.array([0.0, 0.0, 1.0])
 
@@ -38,6 +40,20 @@ def test_a_ball_on_a_floor_faces_out() -> None:
     outward = (normals * places).sum(axis=1)[on_ball]
     assert on_ball.sum() > 500
     assert (outward > 0).mean() > 0.995
+
+
+@pytest.mark.parametrize("noise", [0.7, 1.0])
+def test_ground_with_wide_noise_is_one_sheet_that_faces_up(noise: float) -> None:
+    made = reconstruct(noisy_ground(8000, noise))
+    mesh = made.report.mesh
+    assert (mesh.components, mesh.boundary_loops, mesh.self_intersections) == (1, 1, 0)
+    assert share_against(made, UP) < 1e-9
+
+
+def test_a_plate_whose_noise_hides_its_sides_is_not_one_layer() -> None:
+    assert are_of_one_layer(noisy_ground(8000, 1.0))
+    assert not are_of_one_layer(noisy_ground(8000, 0.7, thick=2))
+    assert not are_of_one_layer(noisy_ground(1000, 1.0))
 
 
 @pytest.mark.parametrize("on_a_grid", [False, True])

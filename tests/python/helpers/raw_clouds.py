@@ -138,6 +138,13 @@ def lidar_room(beams: int, step: float) -> Array:
     return sensor + rays * (ranges + np.random.default_rng(0).normal(0, 0.01, len(rays)))[:, None]
 
 
+def noisy_ground(count: int, noise: float, thick: float = 0) -> Array:
+    """Return a flat unit square, or a plate so many spacings thick, with so many spacings of noise every way."""
+    random = np.random.default_rng(0)
+    places = np.column_stack([random.random((count, 2)), thick * count**-0.5 * random.integers(0, 2, count)])
+    return places + noise * count**-0.5 * random.normal(size=(count, 3))
+
+
 def turned_wall(count: int, on_a_grid: bool, degrees: float) -> Array:
     """Return points of a flat wall, 4 by 3, that is neither level nor upright."""
     rows = round(np.sqrt(count * 3 / 4))
