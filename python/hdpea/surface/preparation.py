@@ -132,5 +132,8 @@ def _notes(cloud: PointCloud, oriented: OrientedSurface) -> list[str]:
     if oriented.sensors_refused:
         notes.append("The sensors cannot have seen the points, which lie behind others from there: they do not count.")
     if oriented.from_one_place:
-        notes.append("The points were seen from one place: what cannot be seen from there is missing.")
+        # That it is the origin is told by the points alone, which ground above the origin resembles, too.
+        known = cloud.sensors() is not None
+        place = "one place" if known else "one place, the origin, unless `orient` or `viewpoint` says otherwise"
+        notes.append(f"The points were seen from {place}: what cannot be seen from there is missing.")
     return notes

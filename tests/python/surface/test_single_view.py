@@ -114,5 +114,8 @@ def test_trusted_normals_of_the_file_come_first() -> None:
 
 def test_that_much_is_missing_is_said() -> None:
     points, _ = seen(clouds.ellipsoid(4000), np.array([0.0, 0, -3]))
-    assert any("seen from one place" in note for note in prepare_surface(cleaned_cloud(before_a_camera(points))).notes)
+    assert any(
+        "seen from one place, the origin" in note
+        for note in prepare_surface(cleaned_cloud(before_a_camera(points))).notes
+    )
     assert not any("one place" in note for note in prepare_surface(cleaned_cloud(clouds.sphere(2000)[0])).notes)
