@@ -9,8 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hdpea import _core
+from hdpea.frontend.clumps import clump_distance, count_apart
 from hdpea.frontend.crowds import FEWEST, STEP, crowds_lie_across, nearest_kept, quiet_count
-from hdpea.geometry.thinning import farthest_rows, rows_along
+from hdpea.geometry.thinning import farthest_rows
 from hdpea.runtime.blocks import in_blocks
 
 NEAR, FAR = 4, 14
@@ -36,12 +37,8 @@ uneven: a place that was seen twice or three times has no line of points.
 
 Of points spread at random 0.18 are twins, of frames along the same rays with noise of up to 0.2 spacings 0.45 to 1."""
 
-CLUMPED, MOST_CLUMPED, SAMPLES = 3.0, 0.7, 5_000
-"""Ratio of the distances to one of the nearest points and the one before, from which on these are a clump, the share of
-points in clumps that makes a cloud uneven, and how many are asked.
-
-Each place of twenty copies that differ in the last digits is covered by its own ten nearest points. Of points spread at
-random, on meshes, too, 0.12 to 0.13 are in clumps, of copies 0.97 and more."""
+FEWEST_PLACES = 100
+"""Fewer places say nothing of how they are spread."""
 
 SURROUNDING = 10
 """Nearest points of a level whose disk tells how much surface each of them has for itself."""
@@ -91,18 +88,20 @@ def sampling_of(points: NDArray[np.float64], nearest: NDArray[np.int64]) -> Samp
     Of each the `nearest` (n, 32) are known.
 
     Lines are told by the local dimension (Levina and Bickel, "Maximum likelihood estimation of intrinsic dimension",
-    2004). Where many points lie on some, or at the same places, the cloud is looked at in levels, each its farthest
-    points (Eldar et al., "The farthest point strategy for progressive image sampling", 1997), which have a least
-    distance: on the first level whose points have no more surface for themselves than this allows for, they surround
-    each other on all sides. It does not matter how dense lines are, nor whether they cross. Neither moving, turning nor
-    scaling makes a difference.
+    2004). Of points in clumps one stands for each. Where many points lie on lines, or nearly at the same places, the
+    cloud is looked at in levels, each its farthest points (Eldar et al., "The farthest point strategy for progressive
+    image sampling", 1997), which have a least distance: on the first level whose points have no more surface for
+    themselves than this allows for, they surround each other on all sides. It does not matter how dense lines are, nor
+    whether they cross. Neither moving, turning nor scaling makes a difference.
     """
     even_spacing = _even_spacing(points, nearest)
     on_lines = float(np.average(_dimension(points, nearest) < LINE_DIMENSION, weights=_areas(points, nearest)))
-    clump = _clump(points, nearest)
+    clump = clump_distance(points, nearest)
     if on_lines < LEAST_SHARE and _share_of_twins(points, nearest) < MOST_TWINS and not clump:
         return Sampling(even_spacing, np.ones(len(points), dtype=bool), np.arange(len(points)), 0.0)
     order = farthest_rows(points, len(points))
+    if clump and FEWEST_PLACES <= (places := count_apart(points, order, clump)) < len(points):
+        return _sampling_of_places(points, order[:places])
     rank = np.empty(len(points), dtype=np.int64)
     rank[order] = np.arange(len(points))
     spacing = np.zeros(len(points))
@@ -141,16 +140,14 @@ def _dimension(points: NDArray[np.float64], nearest: NDArray[np.int64]) -> NDArr
     return np.asarray(2 * on_a_plane / np.maximum(averaged, tiny))
 
 
-def _clump(points: NDArray[np.float64], nearest: NDArray[np.int64]) -> float:
-    """Return how far apart clumps are at least that points (n, 3) lie in; 0 if they lie in none."""
-    rows = rows_along(len(points), SAMPLES)
-    distances = np.linalg.norm(points[nearest[rows]] - points[rows, None], axis=2)
-    ratios = distances[:, 1:] / np.maximum(distances[:, :-1], np.finfo(np.float64).tiny)
-    clumped = ratios.max(axis=1) > CLUMPED
-    if clumped.mean() < MOST_CLUMPED:
-        return 0.0
-    width = np.take_along_axis(distances, ratios.argmax(axis=1)[:, None], axis=1)[clumped]
-    return float(np.sqrt(CLUMPED) * np.median(width))
+def _sampling_of_places(points: NDArray[np.float64], rows: NDArray[np.int64]) -> Sampling:
+    """Return how a surface is sampled of whose points (n, 3) those in `rows` lie at a place each, the others there."""
+    places = np.ascontiguousarray(points[rows])
+    found = sampling_of(places, _core.nearest_neighbors(places, NEIGHBORS))
+    kept = np.zeros(len(points), dtype=bool)
+    kept[rows[found.kept]] = True
+    at = _core.nearest_neighbors(places, points, 1)[:, 0]
+    return Sampling(found.spacing[at], kept, nearest_kept(points, kept), found.on_lines)
 
 
 def _share_of_twins(points: NDArray[np.float64], nearest: NDArray[np.int64]) -> float:

@@ -23,13 +23,26 @@ def test_so_do_rays_at_random_with_noise_as_wide_as_some_are_apart() -> None:
 
 
 @pytest.mark.parametrize("copies", [14, 20, 28])
-def test_copies_are_few_however_many_there_are(copies: int) -> None:
-    assert 1000 < classify(jittered_copies(2000, copies, 1e-6)).kept.sum() < 2000
+def test_of_copies_one_is_kept_however_many_there_are(copies: int) -> None:
+    assert classify(jittered_copies(2000, copies, 1e-6)).kept.sum() == 2000
 
 
 def test_it_does_not_matter_how_often_copies_are_rounded_differently() -> None:
     kept = [classify(jittered_copies(2000, copies, 1e-6)).kept.sum() for copies in (2, 3, 8)]
-    assert 1000 < min(kept) <= max(kept) < min(1.05 * min(kept), 2000)
+    assert kept == [2000, 2000, 2000]
+
+
+def test_each_place_of_a_small_cloud_is_kept_once() -> None:
+    copies = jittered_copies(600, 8, 1e-5)
+    found = classify(copies)
+    assert found.kept.sum() == 600
+    assert set(np.flatnonzero(found.kept) % 600) == set(range(600))
+    assert_ball(reconstruct(copies))
+
+
+@pytest.mark.parametrize(("frames", "noise"), [(3, 0.02), (10, 0.02), (10, 0.1)])
+def test_of_rays_that_are_told_apart_about_one_is_kept(frames: int, noise: float) -> None:
+    assert classify(repeated_rays(2000, frames, noise)).kept.sum() == pytest.approx(2000, rel=0.05)
 
 
 @pytest.mark.parametrize("cloud", ["sphere", "torus", "cube"])

@@ -28,6 +28,21 @@ def test_the_mouths_of_a_pipe_stay_open(count: int, length: float, seed: int) ->
     assert (mesh.components, mesh.boundary_loops, mesh.self_intersections) == (1, 2, 0)
 
 
+# They have 12 to 20 points around.
+@pytest.mark.parametrize(("count", "length"), [(500, 8), (600, 20), (1000, 40), (3000, 80)])
+def test_so_do_those_of_few_points(count: int, length: float) -> None:
+    mesh = reconstruct(pipe(count, length)).report.mesh
+    assert (mesh.components, mesh.boundary_loops, mesh.self_intersections) == (1, 2, 0)
+
+
+@pytest.mark.parametrize("count", [300, 500, 800])
+def test_the_ends_of_a_closed_cylinder_stay_closed(count: int) -> None:
+    ends = np.random.default_rng(1).choice([0.0, 8], count // 8)
+    around, out = TAU * np.random.default_rng(2).random(len(ends)), np.sqrt(np.random.default_rng(3).random(len(ends)))
+    lids = np.stack([out * np.cos(around), out * np.sin(around), ends], axis=1)
+    assert reconstruct(np.vstack([pipe(count, 8), lids])).report.mesh.closed
+
+
 def test_they_are_closed_if_that_is_asked_for() -> None:
     assert reconstruct(pipe(1000), fill_holes=3.0).report.mesh.closed
     assert reconstruct(pipe(1000), watertight=True).report.mesh.closed
