@@ -134,5 +134,5 @@ def dropped_notes(counts: dict[str, int], of: int) -> list[str]:
         many = f", {share:.0%} of all: see that they are no part of it" if share > MANY else ""
         notes.append(f"Dropped points that lie on no surface: {strays:,}{many}.")
     if on_lines:
-        notes.append(f"Dropped points that crowd on scan lines: {on_lines:,}.")
+        notes.append(f"Dropped points that crowd on scan lines, or at one place: {on_lines:,}.")
     return notes
