@@ -95,7 +95,7 @@ def sampling_of(points: NDArray[np.float64], nearest: NDArray[np.int64]) -> Samp
     whether they cross. Neither moving, turning nor scaling makes a difference.
     """
     even_spacing = _even_spacing(points, nearest)
-    on_lines = float(np.average(_dimension(points, nearest) < LINE_DIMENSION, weights=_areas(points, nearest)))
+    on_lines = _share_on_lines(points, nearest)
     clump = clump_distance(points, nearest)
     if on_lines < LEAST_SHARE and _share_of_twins(points, nearest) < MOST_TWINS and not clump:
         return Sampling(even_spacing, np.ones(len(points), dtype=bool), np.arange(len(points)), 0.0)
@@ -127,6 +127,13 @@ def sampling_of(points: NDArray[np.float64], nearest: NDArray[np.int64]) -> Samp
     if crowds_lie_across(points, covering):
         kept = rank < quiet_count(points, order, int(covering.sum()), int(detailed.sum()))
     return Sampling(spacing, kept, nearest_kept(points, kept), on_lines)
+
+
+def _share_on_lines(points: NDArray[np.float64], nearest: NDArray[np.int64]) -> float:
+    """Return which share of the surface points (n, 3) sample along lines; 0 where all are at one place."""
+    areas = _areas(points, nearest)
+    whole = float(areas.sum())
+    return float(areas[_dimension(points, nearest) < LINE_DIMENSION].sum()) / whole if whole > 0 else 0.0
 
 
 def _dimension(points: NDArray[np.float64], nearest: NDArray[np.int64]) -> NDArray[np.float64]:
