@@ -3,7 +3,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -94,14 +94,23 @@ def sampling_of(points: NDArray[np.float64], nearest: NDArray[np.int64]) -> Samp
     themselves than this allows for, they surround each other on all sides. It does not matter how dense lines are, nor
     whether they cross. Neither moving, turning nor scaling makes a difference.
     """
-    even_spacing = _even_spacing(points, nearest)
-    on_lines = _share_on_lines(points, nearest)
+    areas = _areas(points, nearest)
+    on_lines = _share_on_lines(points, nearest, areas)
     clump = clump_distance(points, nearest)
-    if on_lines < LEAST_SHARE and _share_of_twins(points, nearest) < MOST_TWINS and not clump:
-        return Sampling(even_spacing, np.ones(len(points), dtype=bool), np.arange(len(points)), 0.0)
+    of_all = Sampling(_even_spacing(areas, nearest), np.ones(len(points), dtype=bool), np.arange(len(points)), on_lines)
+    if on_lines < LEAST_SHARE and _share_of_twins(points, nearest, areas) < MOST_TWINS and not clump:
+        return replace(of_all, on_lines=0.0)
     order = farthest_rows(points, len(points))
-    if clump and FEWEST_PLACES <= (places := count_apart(points, order, clump)) < len(points):
-        return _sampling_of_places(points, order[:places])
+    if clump and (places := count_apart(points, order, clump)) < len(points):
+        return _sampling_of_places(points, order[:places]) if places >= FEWEST_PLACES else of_all
+    return _sampling_by_levels(points, order, of_all)
+
+
+def _sampling_by_levels(points: NDArray[np.float64], order: NDArray[np.int64], of_all: Sampling) -> Sampling:
+    """Return how an uneven cloud (n, 3) is sampled, by levels of the first in the `order` (n,) of the farthest.
+
+    What is covered on no level, as wires are, stays as it is `of_all` points.
+    """
     rank = np.empty(len(points), dtype=np.int64)
     rank[order] = np.arange(len(points))
     spacing = np.zeros(len(points))
@@ -112,26 +121,22 @@ def sampling_of(points: NDArray[np.float64], nearest: NDArray[np.int64]) -> Samp
         level = np.ascontiguousarray(points[order[:count]])
         least = np.linalg.norm(level[:-1] - level[-1], axis=1).min()
         count, of_level = round(count / STEP), count
-        if least < clump:
-            continue
         share, own = _share_of(level, least)
         at = _core.nearest_neighbors(level, points, 1)[:, 0]
         for most, counts in enough.items():
             counts[(counts == 0) & (share[most][at] >= 0.5)] = of_level
         covered = (spacing == 0) & (share[COVERED][at] >= 0.5)
         spacing[covered] = own[at[covered]]
-    # What is covered on no level, as wires are, stays as it is.
-    spacing = np.where(spacing == 0, even_spacing, spacing)
+    spacing = np.where(spacing == 0, of_all.spacing, spacing)
     detailed, covering = (rank < np.where(counts == 0, len(points), counts) for counts in enough.values())
     kept = detailed
     if crowds_lie_across(points, covering):
         kept = rank < quiet_count(points, order, int(covering.sum()), int(detailed.sum()))
-    return Sampling(spacing, kept, nearest_kept(points, kept), on_lines)
+    return Sampling(spacing, kept, nearest_kept(points, kept), of_all.on_lines)
 
 
-def _share_on_lines(points: NDArray[np.float64], nearest: NDArray[np.int64]) -> float:
+def _share_on_lines(points: NDArray[np.float64], nearest: NDArray[np.int64], areas: NDArray[np.float64]) -> float:
     """Return which share of the surface points (n, 3) sample along lines; 0 where all are at one place."""
-    areas = _areas(points, nearest)
     whole = float(areas.sum())
     return float(areas[_dimension(points, nearest) < LINE_DIMENSION].sum()) / whole if whole > 0 else 0.0
 
@@ -157,10 +162,10 @@ def _sampling_of_places(points: NDArray[np.float64], rows: NDArray[np.int64]) ->
     return Sampling(found.spacing[at], kept, nearest_kept(points, kept), found.on_lines)
 
 
-def _share_of_twins(points: NDArray[np.float64], nearest: NDArray[np.int64]) -> float:
+def _share_of_twins(points: NDArray[np.float64], nearest: NDArray[np.int64], areas: NDArray[np.float64]) -> float:
     """Return which share of points (n, 3) has another one at its place but for noise."""
     apart = np.square(points[nearest[:, 0]] - points).sum(axis=1)
-    return float((apart < TWIN**2 * _areas(points, nearest)).mean())
+    return float((apart < TWIN**2 * areas).mean())
 
 
 def _share_of(level: NDArray[np.float64], least: float) -> tuple[dict[float, NDArray[np.float64]], NDArray[np.float64]]:
@@ -172,10 +177,9 @@ def _share_of(level: NDArray[np.float64], least: float) -> tuple[dict[float, NDA
     return shares, np.sqrt(np.median(area[around], axis=1))
 
 
-def _even_spacing(points: NDArray[np.float64], nearest: NDArray[np.int64]) -> NDArray[np.float64]:
-    """Return the side (n,) of the square of surface that each of evenly spread points (n, 3) has for itself."""
-    areas = _areas(points, nearest)
-    around = in_blocks(lambda block: np.median(areas[nearest[block, :SURROUNDING]], axis=1), len(points))
+def _even_spacing(areas: NDArray[np.float64], nearest: NDArray[np.int64]) -> NDArray[np.float64]:
+    """Return the side (n,) of the square of surface that each of evenly spread points has for itself."""
+    around = in_blocks(lambda block: np.median(areas[nearest[block, :SURROUNDING]], axis=1), len(areas))
     return np.asarray(np.sqrt(around))
 
 

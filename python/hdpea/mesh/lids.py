@@ -60,8 +60,9 @@ def without_lids(mesh: Mesh, surface: Surface) -> Mesh:
         return mesh
     opposite = opposite_faces(mesh.faces)
     labels = _labels_of_patches(opposite, first)
-    rims = rims_of(mesh, opposite, labels)
-    areas = np.linalg.norm(area_vectors(mesh.vertices_in_unit, mesh.faces[first:]), axis=1)
+    vectors = area_vectors(mesh.vertices_in_unit, mesh.faces)
+    rims = rims_of(mesh, vectors, opposite, labels)
+    areas = np.linalg.norm(vectors[first:], axis=1)
     emptied = np.bincount(labels, areas * (empty > EMPTY), len(areas))
     lids = (emptied > LEAST_EMPTY * rims.areas) & (rims.continued < ACROSS)
     facing = np.einsum("twc,tc->tw", surface.normals[nearest], rims.towards[labels]).max(axis=1)

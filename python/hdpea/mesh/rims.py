@@ -8,7 +8,6 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from hdpea.geometry.triangles import area_vectors
 from hdpea.mesh.extraction import Mesh
 
 
@@ -37,11 +36,13 @@ class Rims:
     behind: NDArray[np.float64]
 
 
-def rims_of(mesh: Mesh, opposite: NDArray[np.int64], labels: NDArray[np.int64]) -> Rims:
-    """Return how the last faces of a mesh lie, patches with `labels` (k,); `opposite` (f, 3) lie across the edges."""
+def rims_of(mesh: Mesh, vectors: NDArray[np.float64], opposite: NDArray[np.int64], labels: NDArray[np.int64]) -> Rims:
+    """Return how the last faces of a mesh lie, patches with `labels` (k,).
+
+    Of all faces the area `vectors` (f, 3) are known, and which lie `opposite` (f, 3) across the edges.
+    """
     count = len(labels)
     first = len(mesh.faces) - count
-    vectors = area_vectors(mesh.vertices_in_unit, mesh.faces)
     areas = np.bincount(labels, np.linalg.norm(vectors[first:], axis=1), count).astype(np.float64)
     faced = np.zeros((count, 3))
     np.add.at(faced, labels, vectors[first:])

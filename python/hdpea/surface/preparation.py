@@ -133,7 +133,7 @@ def _notes(cloud: PointCloud, oriented: OrientedSurface) -> list[str]:
         notes.append("The sensors cannot have seen the points, which lie behind others from there: they do not count.")
     if oriented.from_one_place:
         # That it is the origin is told by the points alone, which ground above the origin resembles, too.
-        known = cloud.sensors() is not None
+        known = cloud.sensors() is not None and not oriented.sensors_refused
         place = "one place" if known else "one place, the origin, unless `orient` or `viewpoint` says otherwise"
         notes.append(f"The points were seen from {place}: what cannot be seen from there is missing.")
     return notes

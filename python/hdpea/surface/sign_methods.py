@@ -95,10 +95,14 @@ def _right_after_all(
         across = abs(cosines(axes[:, :, 0], directions[rows])) > AGREEING_COSINE
         return np.asarray(across & (variances[:, 0] < FLAT) & (variances[:, 1] > WIDE))
 
+    none = np.zeros(len(points), dtype=bool)
+    # So few can be no such share of planes that are half of all.
+    if 2 * np.count_nonzero(~agreeing) <= MOST_OFF * len(points):
+        return none
     planar = in_blocks(clear, len(points))
     off = planar & ~agreeing
     sheet = 2 * np.count_nonzero(planar) > len(points) and np.count_nonzero(off) > MOST_OFF * np.count_nonzero(planar)
-    return off if sheet else np.zeros_like(off)
+    return off if sheet else none
 
 
 def by_winding_number(
