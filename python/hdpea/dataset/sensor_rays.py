@@ -8,6 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from hdpea.geometry.directions import directions_of
+
 MODEL_RADIUS = 0.5
 """Radius of the ball around the origin of the unit frame that contains the model: half its diagonal."""
 
@@ -54,7 +56,7 @@ def camera_rays(position: NDArray[np.float64], resolution: int, roll: float) -> 
     opening = MODEL_RADIUS / (distance**2 - MODEL_RADIUS**2) ** 0.5  # tangent of half the angle of view
     plane = np.outer(x[seen], right) + np.outer(y[seen], np.cross(forward, right))
     pixels = np.stack(np.divmod(seen, resolution), axis=1)
-    return Rays(_unit(forward + opening * plane), pixels, (resolution, resolution))
+    return Rays(directions_of(forward + opening * plane), pixels, (resolution, resolution))
 
 
 def lidar_rays(position: NDArray[np.float64], resolution: int, ring_ratio: float) -> Rays:
@@ -82,8 +84,3 @@ def lidar_rays(position: NDArray[np.float64], resolution: int, ring_ratio: float
     directions = np.stack([level * np.cos(azimuth), level * np.sin(azimuth), np.sin(elevation)], axis=1)
     towards = np.flatnonzero(directions @ -position >= distance * np.cos(half))
     return Rays(directions[towards], np.stack(np.divmod(towards, beams), axis=1), (rings, beams))
-
-
-def _unit(vectors: NDArray[np.float64]) -> NDArray[np.float64]:
-    unit: NDArray[np.float64] = vectors / np.linalg.norm(vectors, axis=1, keepdims=True)
-    return unit

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from hdpea.dataset.augmentation import random_rotation
 from hdpea.dataset.options import ScanOptions
-from hdpea.geometry.directions import TAU, fibonacci_spiral, on_sphere
+from hdpea.geometry.directions import TAU, directions_of, fibonacci_spiral, on_sphere
 
 ELEVATIONS = {"turntable": (TAU / 24, TAU / 9, TAU / 6), "lidar": (-TAU / 18, 0.0, TAU / 18)}
 """Elevations of sensors above the horizon. A turntable's never sees the underside of the model."""
@@ -30,9 +30,4 @@ def sensor_positions(options: ScanOptions, rng: np.random.Generator) -> NDArray[
     else:
         directions = fibonacci_spiral(options.views, options.coverage) @ random_rotation(rng).T
     directions += JITTER * rng.standard_normal(directions.shape)
-    return options.distance * _unit(directions)
-
-
-def _unit(vectors: NDArray[np.float64]) -> NDArray[np.float64]:
-    unit: NDArray[np.float64] = vectors / np.linalg.norm(vectors, axis=1, keepdims=True)
-    return unit
+    return options.distance * directions_of(directions)

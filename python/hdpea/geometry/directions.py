@@ -10,6 +10,12 @@ TAU = 2 * np.pi
 GOLDEN_ANGLE = TAU * (2 - (1 + 5**0.5) / 2)
 
 
+def directions_of(vectors: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return the vectors (n, 3) at length 1; 0 where they have none."""
+    lengths = np.linalg.norm(vectors, axis=1, keepdims=True)
+    return np.asarray(vectors / np.where(lengths > 0, lengths, 1))
+
+
 def on_sphere(azimuth: NDArray[np.float64], height: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return the points (n, 3) of the unit sphere of these azimuths (n,), in radians, and heights (n,), -1 to 1."""
     radius = np.sqrt(1 - height**2)

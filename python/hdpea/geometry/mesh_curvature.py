@@ -6,6 +6,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from hdpea.geometry.directions import directions_of
 from hdpea.geometry.triangles import area_vectors
 
 Rows = NDArray[np.float64]
@@ -37,8 +38,8 @@ def largest_curvatures(vertices: Rows, faces: NDArray[np.int64]) -> Rows:
     normals = _vertex_normals(vertices, faces)
     corners, around = vertices[faces], normals[faces]
     edges, changes = (np.roll(each, -1, axis=1) - each for each in (corners, around))
-    u = _unit(edges[:, 0])
-    plane = np.stack([u, np.cross(_unit(across), u)], axis=2)
+    u = directions_of(edges[:, 0])
+    plane = np.stack([u, np.cross(directions_of(across), u)], axis=2)
     (x, y), (changed_x, changed_y) = (np.moveaxis(each @ plane, 2, 0) for each in (edges, changes))
     # The operator [[a, b], [b, c]] takes an edge (x, y) to its change: six equations for (a, b, c).
     zero = np.zeros_like(x)
@@ -72,10 +73,4 @@ def _vertex_normals(vertices: Rows, faces: NDArray[np.int64]) -> Rows:
     squares = (onward**2).sum(axis=2) * (back**2).sum(axis=2)
     weighted = np.cross(onward, back) / np.where(squares > 0, squares, 1)[:, :, None]
     totals = [np.bincount(faces.ravel(), weighted[:, :, axis].ravel(), len(vertices)) for axis in range(3)]
-    return _unit(np.column_stack(totals))
-
-
-def _unit(vectors: Rows) -> Rows:
-    """Return the vectors (n, 3) at length 1; 0 where they have none."""
-    lengths = np.linalg.norm(vectors, axis=1, keepdims=True)
-    return np.asarray(vectors / np.where(lengths > 0, lengths, 1))
+    return directions_of(np.column_stack(totals))

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from hdpea.geometry.directions import directions_of
 from hdpea.mesh.extraction import Mesh
 
 
@@ -46,23 +47,19 @@ def rims_of(mesh: Mesh, vectors: NDArray[np.float64], opposite: NDArray[np.int64
     areas = np.bincount(labels, np.linalg.norm(vectors[first:], axis=1), count).astype(np.float64)
     faced = np.zeros((count, 3))
     np.add.at(faced, labels, vectors[first:])
-    towards = _unit(faced)
+    towards = directions_of(faced)
     face, side = np.nonzero((opposite[first:] >= 0) & (opposite[first:] < first))
     ends = mesh.vertices_in_unit[np.stack([mesh.faces[first + face, side], mesh.faces[first + face, (side + 1) % 3]])]
     edges = ends[1] - ends[0]
-    beyond = _unit(vectors[opposite[first + face, side]])
+    beyond = directions_of(vectors[opposite[first + face, side]])
     # Into the face beyond, which goes along the edge the other way.
-    away = _unit(np.cross(beyond, edges))
+    away = directions_of(np.cross(beyond, edges))
     at, lengths = labels[face], np.linalg.norm(edges, axis=1)
     around = _positive(np.bincount(at, lengths, count).astype(np.float64))
     continued, behind = (
         np.bincount(at, lengths * np.einsum("nc,nc->n", towards[at], each), count) / around for each in (beyond, away)
     )
     return Rims(towards, areas, np.linalg.norm(faced, axis=1) / _positive(areas), continued, behind)
-
-
-def _unit(vectors: NDArray[np.float64]) -> NDArray[np.float64]:
-    return np.asarray(vectors / _positive(np.linalg.norm(vectors, axis=1, keepdims=True)))
 
 
 def _positive(numbers: NDArray[np.float64]) -> NDArray[np.float64]:
