@@ -15,26 +15,22 @@ namespace {
 
 using Vector = Eigen::Vector3d;
 
-/// Thinned samples are apart by half a spacing or a little more.
-constexpr double kStep = 0.5, kMeanStep = 0.6;
+/// What one sample adds to the length of its line, in spacings: thinned, they are kCreaseStep apart or a little more.
+constexpr double kMeanStep = 0.6;
 
-/// How far neighbours on one line are turned from each other at most, and those across a gap, in degrees.
-constexpr double kTurned = 25, kTurnedAcrossGap = 12;
-
-/// How far they are off it at most, in spacings.
-constexpr double kOff = 0.4;
+/// How far samples across a gap are turned from each other at most, in degrees.
+constexpr double kTurnedAcrossGap = 12;
 
 double cosine_of(double degrees) { return std::cos(degrees * std::numbers::pi / 180); }
+
+}  // namespace
 
 double off_line(const CreaseSample& sample, const Vector& x) {
   const Vector offset = x - sample.position;
   return (offset - sample.direction * sample.direction.dot(offset)).norm();
 }
 
-/// Whether both lie on one line between the same two surfaces: turned by at most an angle in degrees, and off it by at
-/// most so many spacings.
-bool continues(const CreaseSample& one, const CreaseSample& other, double most_turned = kTurned,
-               double most_off = kOff) {
+bool continues(const CreaseSample& one, const CreaseSample& other, double most_turned, double most_off) {
   const double least_cosine = cosine_of(most_turned);
   const auto agree = [&](const Vector& first, const Vector& second) {
     return one.first.dot(first) > least_cosine && one.second.dot(second) > least_cosine;
@@ -45,7 +41,6 @@ bool continues(const CreaseSample& one, const CreaseSample& other, double most_t
          off_line(other, one.position) < most_off * one.spacing;
 }
 
-/// Where the lines of two samples meet, if they do near both.
 std::optional<Vector> meeting_point(const CreaseSample& one, const CreaseSample& other) {
   constexpr double reach = 4, most_apart = 0.35;
   static const double most_cosine = cosine_of(30);
@@ -61,53 +56,6 @@ std::optional<Vector> meeting_point(const CreaseSample& one, const CreaseSample&
   return (p + q) / 2;
 }
 
-struct Meeting {
-  Vector position;
-  double reach;  ///< from the two samples, together
-  double spacing;
-};
-
-/// Where lines of samples near each other meet, the nearest to their samples first.
-std::vector<Meeting> meetings(const std::vector<CreaseSample>& samples, const Points& positions) {
-  constexpr Index neighbors = 24;
-  const Neighbors near = nearest_neighbors(positions, neighbors);
-  std::vector<Meeting> found;
-  for (std::size_t i = 0; i < samples.size(); ++i) {
-    for (Index j : near.row(static_cast<Index>(i))) {
-      if (j < static_cast<Index>(i)) continue;
-      if (const auto point = meeting_point(samples[i], samples[j])) {
-        const double reach = (*point - samples[i].position).norm() + (*point - samples[j].position).norm();
-        found.push_back({*point, reach, samples[i].spacing});
-      }
-    }
-  }
-  std::stable_sort(found.begin(), found.end(),
-                   [](const Meeting& one, const Meeting& other) { return one.reach < other.reach; });
-  return found;
-}
-
-/// One corner for all meetings within a spacing: the mean of those around the first.
-std::vector<Vector> corners_of(const std::vector<Meeting>& found) {
-  std::vector<Vector> corners;
-  for (const Meeting& each : found) {
-    const bool known = std::any_of(corners.begin(), corners.end(), [&](const Vector& corner) {
-      return (corner - each.position).norm() < each.spacing;
-    });
-    if (known) continue;
-    Vector sum = Vector::Zero();
-    int count = 0;
-    for (const Meeting& other : found) {
-      if ((other.position - each.position).norm() > 0.5 * each.spacing) continue;
-      sum += other.position;
-      ++count;
-    }
-    corners.push_back(sum / count);
-  }
-  return corners;
-}
-
-}  // namespace
-
 std::vector<CreaseSample> thinned(std::vector<CreaseSample> samples) {
   constexpr Index neighbors = 48;
   constexpr double same_direction = 0.8;
@@ -122,7 +70,7 @@ std::vector<CreaseSample> thinned(std::vector<CreaseSample> samples) {
     const CreaseSample& best = samples[i];
     kept.push_back(best);
     for (Index j : near.row(static_cast<Index>(i))) {
-      if (j < 0 || (samples[j].position - best.position).norm() > kStep * best.spacing) continue;
+      if (j < 0 || (samples[j].position - best.position).norm() > kCreaseStep * best.spacing) continue;
       if (std::abs(samples[j].direction.dot(best.direction)) > same_direction) dropped[j] = true;
     }
   }
@@ -174,40 +122,6 @@ std::vector<CreaseSample> on_long_lines(const std::vector<CreaseSample>& samples
     if (lengths[lines.find(i)] >= min_length) kept.push_back(samples[i]);
   }
   return kept;
-}
-
-std::vector<Vector> join_at_corners(std::vector<CreaseSample>& samples) {
-  constexpr Index neighbors = 32;
-  constexpr double reach = 4.5, most_off = 0.3, same_direction = 0.9;
-  if (samples.empty()) return {};
-  const Points positions = crease_positions(samples);
-  const std::vector<Vector> corners = corners_of(meetings(samples, positions));
-  if (corners.empty()) return corners;
-  const Neighbors near = nearest_neighbors(positions, crease_corners({{}, corners}), neighbors);
-  std::vector<CreaseSample> added;
-  for (std::size_t c = 0; c < corners.size(); ++c) {
-    for (Index i : near.row(static_cast<Index>(c))) {
-      if (i < 0) continue;
-      CreaseSample next = samples[i];
-      const double distance = (next.position - corners[c]).norm();
-      if (distance > reach * next.spacing || off_line(next, corners[c]) > most_off * next.spacing) continue;
-      const Vector away = (next.position - corners[c]) / distance;
-      // Only the end of a line goes on to the corner.
-      const auto nearer = [&](Index j) {
-        if (j < 0 || j == i || std::abs(samples[j].direction.dot(next.direction)) < same_direction) return false;
-        const Vector other = samples[j].position - corners[c];
-        return other.norm() < distance && other.dot(away) > 0.8 * other.norm() && continues(samples[i], samples[j]);
-      };
-      if (std::any_of(near.row(static_cast<Index>(c)).begin(), near.row(static_cast<Index>(c)).end(), nearer)) continue;
-      next.direction = away;
-      for (double step = kStep / 2; step * next.spacing < distance - kStep / 2 * next.spacing; step += kStep) {
-        next.position = corners[c] + step * next.spacing * away;
-        added.push_back(next);
-      }
-    }
-  }
-  samples.insert(samples.end(), added.begin(), added.end());
-  return corners;
 }
 
 }  // namespace hdpea

@@ -1,12 +1,26 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Single samples of creases become lines with corners.
+// Single samples of creases become lines.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "hdpea_cpp/points/creases.hpp"
 
 namespace hdpea {
+
+/// Thinned samples are at least so many spacings apart along a line.
+constexpr double kCreaseStep = 0.5;
+
+/// The distance of a place from the line of a sample.
+double off_line(const CreaseSample& sample, const Eigen::Vector3d& x);
+
+/// Whether both lie on one line between the same two surfaces: turned by at most an angle in degrees, and off it by at
+/// most so many spacings.
+bool continues(const CreaseSample& one, const CreaseSample& other, double most_turned = 25, double most_off = 0.4);
+
+/// Where the lines of two samples of different directions meet, if they do near both.
+std::optional<Eigen::Vector3d> meeting_point(const CreaseSample& one, const CreaseSample& other);
 
 /// The best samples, none within half a spacing of another in its direction.
 std::vector<CreaseSample> thinned(std::vector<CreaseSample> samples);
@@ -18,8 +32,5 @@ std::vector<CreaseSample> thinned(std::vector<CreaseSample> samples);
 /// lines, and add nothing to their length.
 std::vector<CreaseSample> on_long_lines(const std::vector<CreaseSample>& samples, double min_length,
                                         double strong_residual);
-
-/// Finds the corners where lines of different directions end, and adds samples from each end to its corner.
-std::vector<Eigen::Vector3d> join_at_corners(std::vector<CreaseSample>& samples);
 
 }  // namespace hdpea

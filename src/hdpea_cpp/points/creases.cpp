@@ -10,6 +10,7 @@
 #include "hdpea_cpp/base/checks.hpp"
 #include "hdpea_cpp/base/errors.hpp"
 #include "hdpea_cpp/base/parallel.hpp"
+#include "hdpea_cpp/points/crease_corners.hpp"
 #include "hdpea_cpp/points/crease_lines.hpp"
 #include "hdpea_cpp/points/neighbors.hpp"
 #include "hdpea_cpp/points/wedge.hpp"
@@ -157,7 +158,7 @@ Creases find_creases(const PointsRef& points, const PointsRef& normals, const Cr
     samples.insert(samples.end(), found.begin(), found.end());
   }
   samples = on_long_lines(thinned(samples), options.min_length, options.strong_residual);
-  std::vector<Vector> corners = join_at_corners(samples);
+  std::vector<Vector> corners = join_at_corners(samples, points, normals);
   return {std::move(samples), std::move(corners)};
 }
 

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hdpea_cpp/points/crease_corners.hpp"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "hdpea_cpp/points/crease_lines.hpp"
+#include "hdpea_cpp/points/neighbors.hpp"
+
+namespace hdpea {
+namespace {
+
+using Vector = Eigen::Vector3d;
+
+struct Meeting {
+  Vector position;
+  double reach;  ///< from the two samples, together
+  double spacing;
+};
+
+/// Where lines of samples near each other meet, the nearest to their samples first.
+std::vector<Meeting> meetings(const std::vector<CreaseSample>& samples, const Points& positions) {
+  constexpr Index neighbors = 24;
+  const Neighbors near = nearest_neighbors(positions, neighbors);
+  std::vector<Meeting> found;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    for (Index j : near.row(static_cast<Index>(i))) {
+      if (j < static_cast<Index>(i)) continue;
+      if (const auto point = meeting_point(samples[i], samples[j])) {
+        const double reach = (*point - samples[i].position).norm() + (*point - samples[j].position).norm();
+        found.push_back({*point, reach, samples[i].spacing});
+      }
+    }
+  }
+  std::stable_sort(found.begin(), found.end(),
+                   [](const Meeting& one, const Meeting& other) { return one.reach < other.reach; });
+  return found;
+}
+
+/// One for all meetings within a spacing: the mean of those around the first.
+std::vector<Meeting> merged(const std::vector<Meeting>& found) {
+  std::vector<Meeting> corners;
+  for (const Meeting& each : found) {
+    const bool known = std::any_of(corners.begin(), corners.end(), [&](const Meeting& corner) {
+      return (corner.position - each.position).norm() < each.spacing;
+    });
+    if (known) continue;
+    Vector sum = Vector::Zero();
+    int count = 0;
+    for (const Meeting& other : found) {
+      if ((other.position - each.position).norm() > 0.5 * each.spacing) continue;
+      sum += other.position;
+      ++count;
+    }
+    corners.push_back({sum / count, each.reach, each.spacing});
+  }
+  return corners;
+}
+
+Points positions_of(const std::vector<Meeting>& corners) {
+  Points positions(corners.size(), 3);
+  for (std::size_t c = 0; c < corners.size(); ++c) positions.row(c) = corners[c].position;
+  return positions;
+}
+
+/// Moves corners to where the tangent planes of the points around them meet, by least squares with a little weight on
+/// staying: the planes of two sides alone hold no place along the line.
+void settle(std::vector<Meeting>& corners, const PointsRef& points, const PointsRef& normals) {
+  constexpr int rounds = 2;
+  constexpr Index neighbors = 12;
+  constexpr double width = 1.5, pull = 0.01;  // in spacings, and of all weights
+  for (int round = 0; round < rounds; ++round) {
+    const Neighbors near = nearest_neighbors(points, positions_of(corners), neighbors);
+    for (std::size_t c = 0; c < corners.size(); ++c) {
+      Meeting& corner = corners[c];
+      Eigen::Matrix3d matrix = Eigen::Matrix3d::Zero();
+      Vector right = Vector::Zero();
+      double weights = 0;
+      for (Index p : near.row(static_cast<Index>(c))) {
+        if (p < 0) continue;
+        const Vector normal = normals.row(p), offset = points.row(p).transpose() - corner.position;
+        const double weight = std::exp(-offset.squaredNorm() / std::pow(width * corner.spacing, 2));
+        matrix += weight * normal * normal.transpose();
+        right += weight * normal.dot(offset) * normal;
+        weights += weight;
+      }
+      if (!std::isnormal(weights)) continue;
+      matrix.diagonal().array() += pull * weights;
+      corner.position += matrix.ldlt().solve(right);
+    }
+  }
+}
+
+/// The lines that end in a corner, by their samples nearest to it.
+class Ends {
+ public:
+  Ends(const std::vector<CreaseSample>& samples, const Vector& corner, Neighbors::ConstRowXpr near)
+      : samples_(samples), corner_(corner) {
+    for (Index i : near) {
+      if (i >= 0 && reaches(samples[i])) around_.push_back(i);
+    }
+  }
+
+  /// Whether lines of two directions do.
+  bool make_a_corner() const {
+    return std::any_of(around_.begin(), around_.end(), [&](Index i) {
+      return std::any_of(around_.begin(), around_.end(), [&](Index j) {
+        return std::abs(samples_[i].direction.dot(samples_[j].direction)) < kSameDirection;
+      });
+    });
+  }
+
+  /// Adds samples from each of them to the corner.
+  void extend(std::vector<CreaseSample>& added) const {
+    for (Index i : around_) {
+      if (!is_last(i)) continue;
+      CreaseSample next = samples_[i];
+      const Vector apart = next.position - corner_;
+      const double distance = apart.norm() / next.spacing;
+      next.direction = apart.normalized();
+      for (double step = kCreaseStep / 2; step < distance - kCreaseStep / 2; step += kCreaseStep) {
+        next.position = corner_ + step * next.spacing * next.direction;
+        added.push_back(next);
+      }
+    }
+  }
+
+ private:
+  static constexpr double kReach = 4.5, kOff = 0.3;  // from a sample to the corner, and from its line, in spacings
+  static constexpr double kSameDirection = 0.9;
+
+  bool reaches(const CreaseSample& sample) const {
+    return (sample.position - corner_).norm() <= kReach * sample.spacing &&
+           off_line(sample, corner_) <= kOff * sample.spacing;
+  }
+
+  bool is_last(Index i) const {
+    const Vector apart = samples_[i].position - corner_;
+    return std::none_of(around_.begin(), around_.end(), [&](Index j) {
+      if (j == i || std::abs(samples_[j].direction.dot(samples_[i].direction)) < kSameDirection) return false;
+      const Vector other = samples_[j].position - corner_;
+      return other.norm() < apart.norm() && other.dot(apart) > 0.8 * other.norm() * apart.norm() &&
+             continues(samples_[i], samples_[j]);
+    });
+  }
+
+  const std::vector<CreaseSample>& samples_;
+  const Vector& corner_;
+  std::vector<Index> around_;
+};
+
+}  // namespace
+
+std::vector<Vector> join_at_corners(std::vector<CreaseSample>& samples, const PointsRef& points,
+                                    const PointsRef& normals) {
+  constexpr Index neighbors = 32;
+  if (samples.empty()) return {};
+  const Points positions = crease_positions(samples);
+  std::vector<Meeting> found = merged(meetings(samples, positions));
+  if (found.empty()) return {};
+  settle(found, points, normals);
+  const Neighbors near = nearest_neighbors(positions, positions_of(found), neighbors);
+  std::vector<Vector> corners;
+  std::vector<CreaseSample> added;
+  for (std::size_t c = 0; c < found.size(); ++c) {
+    const Ends ends(samples, found[c].position, near.row(static_cast<Index>(c)));
+    if (!ends.make_a_corner()) continue;
+    corners.push_back(found[c].position);
+    ends.extend(added);
+  }
+  samples.insert(samples.end(), added.begin(), added.end());
+  return corners;
+}
+
+}  // namespace hdpea
