@@ -11,7 +11,7 @@ void register_creases(nb::module_& module) {
           "(m, 3) float64: places on the creases, about two to a spacing of the points")
       .def_prop_ro(
           "corners", [](const Creases& creases) { return hdpea::crease_corners(creases); },
-          "(c, 3) float64: where creases of several directions meet");
+          "(c, 3) float64: where creases meet, or one bends by 30 degrees within few spacings");
   // The options are for the core's own tests: nobody sets them from Python.
   module.def(
       "find_creases",

@@ -96,15 +96,18 @@ double PointGuard::squared_distance_from_ring(Index point, Vertex v) const {
   return least;
 }
 
+double PointGuard::area(SurfaceMesh::Face_index face) const {
+  const Halfedge h = mesh_.halfedge(face);
+  return area_vector(positions_.row(mesh_.target(h).idx()), positions_.row(mesh_.target(mesh_.next(h)).idx()),
+                     positions_.row(mesh_.source(h).idx()))
+             .norm() /
+         2;
+}
+
 double PointGuard::area() const {
-  double twice = 0;
-  for (const auto f : mesh_.faces()) {
-    const Halfedge h = mesh_.halfedge(f);
-    twice += area_vector(positions_.row(mesh_.target(h).idx()), positions_.row(mesh_.target(mesh_.next(h)).idx()),
-                         positions_.row(mesh_.source(h).idx()))
-                 .norm();
-  }
-  return twice / 2;
+  double sum = 0;
+  for (const auto f : mesh_.faces()) sum += area(f);
+  return sum;
 }
 
 }  // namespace hdpea

@@ -37,6 +37,7 @@ class PointGuard {
   /// The least of the faces around a vertex.
   double uprightness(Vertex v) const;
   Eigen::RowVector3d unit_normal(Vertex a, Vertex b, Vertex c) const;
+  double area(SurfaceMesh::Face_index face) const;
 
  private:
   double squared_distance_from_ring(Index point, Vertex v) const;

@@ -65,31 +65,61 @@ Points positions_of(const std::vector<Meeting>& corners) {
   return positions;
 }
 
-/// Moves corners to where the tangent planes of the points around them meet, by least squares with a little weight on
-/// staying: the planes of two sides alone hold no place along the line.
-void settle(std::vector<Meeting>& corners, const PointsRef& points, const PointsRef& normals) {
-  constexpr int rounds = 2;
-  constexpr Index neighbors = 12;
-  constexpr double width = 1.5, pull = 0.01;  // in spacings, and of all weights
-  for (int round = 0; round < rounds; ++round) {
-    const Neighbors near = nearest_neighbors(points, positions_of(corners), neighbors);
-    for (std::size_t c = 0; c < corners.size(); ++c) {
-      Meeting& corner = corners[c];
-      Eigen::Matrix3d matrix = Eigen::Matrix3d::Zero();
-      Vector right = Vector::Zero();
-      double weights = 0;
-      for (Index p : near.row(static_cast<Index>(c))) {
-        if (p < 0) continue;
-        const Vector normal = normals.row(p), offset = points.row(p).transpose() - corner.position;
-        const double weight = std::exp(-offset.squaredNorm() / std::pow(width * corner.spacing, 2));
-        matrix += weight * normal * normal.transpose();
-        right += weight * normal.dot(offset) * normal;
-        weights += weight;
-      }
-      if (!std::isnormal(weights)) continue;
-      matrix.diagonal().array() += pull * weights;
-      corner.position += matrix.ldlt().solve(right);
+/// Where planes near a place meet, by least squares, with a little weight on the place: planes along a line hold
+/// nothing on it.
+class MeetingPlanes {
+ public:
+  MeetingPlanes(const Vector& place, double spacing) : place_(place), width_(kWidth * spacing) {}
+
+  void add(const Vector& on, const Vector& normal) {
+    const Vector offset = on - place_;
+    const double weight = std::exp(-offset.squaredNorm() / (width_ * width_));
+    matrix_ += weight * normal * normal.transpose();
+    right_ += weight * normal.dot(offset) * normal;
+    weights_ += weight;
+  }
+
+  Vector meeting() const {
+    if (!std::isnormal(weights_)) return place_;
+    return place_ + (matrix_ + kPull * weights_ * Eigen::Matrix3d::Identity()).ldlt().solve(right_);
+  }
+
+ private:
+  static constexpr double kWidth = 1.5, kPull = 0.01;  // in spacings, and of all weights
+
+  Vector place_;
+  double width_, weights_ = 0;
+  Eigen::Matrix3d matrix_ = Eigen::Matrix3d::Zero();
+  Vector right_ = Vector::Zero();
+};
+
+constexpr Index kPlanes = 12;
+
+/// Moves corners to where the planes of the samples around them meet.
+void settle(std::vector<Meeting>& corners, const std::vector<CreaseSample>& samples, const Points& positions) {
+  const Neighbors near = nearest_neighbors(positions, positions_of(corners), kPlanes);
+  for (std::size_t c = 0; c < corners.size(); ++c) {
+    MeetingPlanes planes(corners[c].position, corners[c].spacing);
+    for (Index s : near.row(static_cast<Index>(c))) {
+      if (s < 0) break;
+      for (const Vector& normal : {samples[s].first, samples[s].second}) planes.add(samples[s].position, normal);
     }
+    corners[c].position = planes.meeting();
+  }
+}
+
+/// Moves corners to where the tangent planes of the points around them meet, if that is near: of exact points it is
+/// nearer to the truth, but smeared normals cut corners off.
+void settle_exactly(std::vector<Meeting>& corners, const PointsRef& points, const PointsRef& normals) {
+  constexpr double near_by = 0.3;
+  const Neighbors near = nearest_neighbors(points, positions_of(corners), kPlanes);
+  for (std::size_t c = 0; c < corners.size(); ++c) {
+    MeetingPlanes planes(corners[c].position, corners[c].spacing);
+    for (Index p : near.row(static_cast<Index>(c))) {
+      if (p >= 0) planes.add(points.row(p), normals.row(p));
+    }
+    const Vector found = planes.meeting();
+    if ((found - corners[c].position).norm() <= near_by * corners[c].spacing) corners[c].position = found;
   }
 }
 
@@ -156,11 +186,13 @@ class Ends {
 std::vector<Vector> join_at_corners(std::vector<CreaseSample>& samples, const PointsRef& points,
                                     const PointsRef& normals) {
   constexpr Index neighbors = 32;
+  constexpr int rounds = 2;
   if (samples.empty()) return {};
   const Points positions = crease_positions(samples);
   std::vector<Meeting> found = merged(meetings(samples, positions));
   if (found.empty()) return {};
-  settle(found, points, normals);
+  for (int round = 0; round < rounds; ++round) settle(found, samples, positions);
+  for (int round = 0; round < rounds; ++round) settle_exactly(found, points, normals);
   const Neighbors near = nearest_neighbors(positions, positions_of(found), neighbors);
   std::vector<Vector> corners;
   std::vector<CreaseSample> added;

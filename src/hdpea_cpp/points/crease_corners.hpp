@@ -10,8 +10,8 @@ namespace hdpea {
 
 /// Finds the corners where lines of different directions end, and adds samples from each end to its corner.
 ///
-/// Where lines meet is moved to where the tangent planes of the points around it do: the lines of curved creases are
-/// tangents, which meet outside the surface.
+/// Where lines meet is moved to where the planes around it do: the lines of curved creases are tangents, which meet
+/// outside the surface.
 ///
 /// @param points   (n, 3), n >= 1
 /// @param normals  (n, 3) unit

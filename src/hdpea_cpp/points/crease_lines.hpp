@@ -33,4 +33,7 @@ std::vector<CreaseSample> thinned(std::vector<CreaseSample> samples);
 std::vector<CreaseSample> on_long_lines(const std::vector<CreaseSample>& samples, double min_length,
                                         double strong_residual);
 
+/// Adds samples where the next one on a line is far, along the arc between them.
+std::vector<CreaseSample> gaps_filled(std::vector<CreaseSample> samples);
+
 }  // namespace hdpea

@@ -136,6 +136,21 @@ std::vector<Index> near_bends(const PointsRef& points, const PointsRef& normals)
   return found;
 }
 
+/// Drops samples off the plane of the nearest point: between two surfaces that would meet there another one cuts the
+/// corner off, as a chamfer does.
+void drop_off_surface(std::vector<CreaseSample>& samples, const PointsRef& points, const PointsRef& normals) {
+  constexpr double most_off = 0.5;  // in spacings
+  if (samples.empty()) return;
+  const Neighbors nearest = nearest_neighbors(points, crease_positions(samples), 1);
+  std::vector<CreaseSample> kept;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const Index p = nearest(static_cast<Index>(i), 0);
+    const Vector offset = samples[i].position - points.row(p).transpose();
+    if (std::abs(normals.row(p).dot(offset)) <= most_off * samples[i].spacing) kept.push_back(samples[i]);
+  }
+  samples = std::move(kept);
+}
+
 }  // namespace
 
 Creases find_creases(const PointsRef& points, const PointsRef& normals, const CreaseOptions& options) {
@@ -157,7 +172,8 @@ Creases find_creases(const PointsRef& points, const PointsRef& normals, const Cr
     for (int round = 0; round < rounds; ++round) found = search.around_samples(found);
     samples.insert(samples.end(), found.begin(), found.end());
   }
-  samples = on_long_lines(thinned(samples), options.min_length, options.strong_residual);
+  samples = gaps_filled(on_long_lines(thinned(samples), options.min_length, options.strong_residual));
+  drop_off_surface(samples, points, normals);
   std::vector<Vector> corners = join_at_corners(samples, points, normals);
   return {std::move(samples), std::move(corners)};
 }

@@ -32,7 +32,7 @@ struct CreaseSample {
 /// Sharp edges that points show.
 struct Creases {
   std::vector<CreaseSample> samples;     ///< about two to a spacing along every crease
-  std::vector<Eigen::Vector3d> corners;  ///< where creases of several directions meet
+  std::vector<Eigen::Vector3d> corners;  ///< where creases meet, or one bends by 30 degrees within few spacings
 };
 
 /// Finds the sharp edges that points show.
@@ -41,8 +41,8 @@ struct Creases {
 /// points whose normals are near those of the two, and once more around the line. They are a crease where they fit far
 /// better than a smooth quadratic surface: noise is as far off the one as off the other, and a bend wider than the
 /// points are apart is farther off the wedge. Normals are where the fit begins; they may be smeared across the crease,
-/// as estimated ones are. Samples count only where they follow each other along a line of some length. Where such lines
-/// end and meet is a corner, and the lines go on up to it.
+/// as estimated ones are. Samples count only where they follow each other along a line or an arc of some length, whose
+/// gaps are filled. Where such lines end and meet is a corner, and the lines go on up to it.
 ///
 /// @param points   (n, 3), n >= 1
 /// @param normals  (n, 3) unit, consistently oriented

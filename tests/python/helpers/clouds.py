@@ -75,6 +75,18 @@ def cylinder(count: int, seed: int = 0) -> Cloud:
     return 0.5 * normals + np.stack([0 * v, 0 * v, 2 * v], axis=1), normals
 
 
+def can(count: int, seed: int = 0) -> Cloud:
+    """Return a cylinder of radius 0.5 and height 1 with its two lids."""
+    random = np.random.default_rng(seed)
+    u, v = random.random((2, count))
+    lid = random.random(count) < 1 / 3
+    around = np.stack([np.cos(TAU * u), np.sin(TAU * u), 0 * u], axis=1)
+    up = np.stack([0 * u, 0 * u, np.where(random.random(count) < 0.5, -1.0, 1.0)], axis=1)
+    points = np.where(lid[:, None], 0.5 * np.sqrt(v)[:, None] * around + 0.5 * up, 0.5 * around)
+    points[~lid, 2] = v[~lid] - 0.5
+    return points, np.where(lid[:, None], up, around)
+
+
 def plane(count: int, height: float = 0, seed: int = 0) -> Cloud:
     """Return a horizontal unit square."""
     u, v = np.random.default_rng(seed).random((2, count))

@@ -3,16 +3,21 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import pytest
 import trimesh
 from helpers import clouds
 from helpers.reconstructions import assert_same_bytes, cloud_of, mesh_of, options
 from numpy.typing import NDArray
+from scipy.spatial import cKDTree
 
 from hdpea import Reconstruction, _core, reconstruct
 from hdpea.errors import Interrupted
 from hdpea.mesh import fitting
+from hdpea.mesh.extraction import Mesh
+from hdpea.surface.surface import Surface
 
 
 def evenness(mesh: Reconstruction) -> float:
@@ -67,6 +72,25 @@ def test_a_wall_thinner_than_the_vertices_are_apart_keeps_its_thickness() -> Non
     bases = np.hstack([first, np.cross(normals, first)])
     made = _core.remesh_anisotropically(few.vertices, few.coordinates, few.faces, points, bases, normals, None)
     assert trimesh.Trimesh(made.vertices, made.faces).volume > 0.95 * np.prod(size)
+
+
+def test_no_vertex_is_moved_where_there_are_no_points(monkeypatch: pytest.MonkeyPatch) -> None:
+    # Beyond a rim, the planes of the lid and of the side go on into the air.
+    count = 4000
+    points, normals = clouds.can(count)
+    spacing = np.sqrt(1.5 * np.pi / count) / np.linalg.norm(np.ptp(points, axis=0))
+    remesh, moved_away = fitting.remesh_anisotropically, list[float]()
+
+    def watched(mesh: Mesh, surface: Surface, *others: Any) -> Mesh:
+        made = remesh(mesh, surface, *others)
+        tree = cKDTree(surface.points_in_unit)
+        before, after = (tree.query(each.vertices_in_unit)[0] for each in (mesh, made))
+        moved_away.append(after[after > before].max())
+        return made
+
+    monkeypatch.setattr(fitting, "remesh_anisotropically", watched)
+    reconstruct(points, normals, vertices=count // 8)
+    assert max(moved_away) < 1.25 * spacing
 
 
 def _box(size: tuple[float, float, float]) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
