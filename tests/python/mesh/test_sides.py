@@ -50,6 +50,12 @@ def test_within_another_piece_a_side_is_kept(outer: Array, inner: Array) -> None
 
 
 @pytest.mark.parametrize("inner", [TETRAHEDRON, INSIDE_OUT])
+def test_that_it_may_be_a_room_is_said_of_what_looks_like_a_cavity(inner: Array) -> None:
+    notes = facing_out(mesh_of((CORNERS, TETRAHEDRON), (SMALL, inner))).notes
+    assert any("a guess; in a room" in note for note in notes) == (inner is INSIDE_OUT)
+
+
+@pytest.mark.parametrize("inner", [TETRAHEDRON, INSIDE_OUT])
 def test_within_an_open_piece_a_closed_one_faces_out(inner: Array) -> None:
     outer = TETRAHEDRON[:3]
     faces = facing_out(mesh_of((CORNERS, outer), (SMALL, inner))).mesh.faces
