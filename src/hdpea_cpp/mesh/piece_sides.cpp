@@ -143,9 +143,9 @@ FacedMesh face_outwards(const PointsRef& vertices, const FacesRef& faces) {
   }
   for (const Piece& piece : pieces.all()) {
     const bool face_down = upwards < -kLying * area && piece.lies_face_down();
-    const bool faces_in = piece.closed && piece.volume < 0, within = faces_in && pieces.is_within_another(piece);
+    const bool within = piece.volume < 0 && piece.holds_things() && pieces.is_within_another(piece);
     faced.within += within;
-    if (!face_down && (!faces_in || within)) continue;
+    if (!face_down && !(piece.closed && piece.volume < 0 && !within)) continue;
     for (Index f : piece.faces) std::swap(faced.faces(f, 1), faced.faces(f, 2));
     ++faced.turned;
   }
