@@ -12,6 +12,9 @@ from hdpea.mesh.extraction import Mesh
 MOST_GUESSED = 0.25
 """Largest share of the area without an inside that is not worth a note."""
 
+ROOM = "a guess; in a room that was scanned from within, give sensors, or of a single place `orient` and `viewpoint`"
+"""What decides which of both it is: points on closed surfaces within each other look alike from either side."""
+
 
 @dataclass(frozen=True)
 class FacedMesh:
@@ -26,14 +29,18 @@ def facing_out(mesh: Mesh) -> FacedMesh:
 
     For normals whose side was computed: beside an open surface, neither the winding number nor a spanning tree knows
     the side of a closed one. What lies within a closed piece, or one of small gaps, may be the wall of a cavity, which
-    faces into that; what lies in an open one is a thing in a bowl.
+    faces into that; what lies in an open one is a thing in a bowl. Or all is a room with a thing in it, the other way
+    round, which a note asks.
     """
     with core_errors_translated():
         faced = _core.face_outwards(mesh.vertices_in_unit, mesh.faces)
-    guess = "The surface is open: which side is out is a guess, unless `orient` and `viewpoint` say so."
-    notes = (guess,) if faced.sideless > MOST_GUESSED else ()
+    notes = list[str]()
+    if faced.sideless > MOST_GUESSED:
+        notes.append("The surface is open: which side is out is a guess, unless `orient` and `viewpoint` say so.")
+    if faced.within:
+        notes.append(f"{_pieces(faced.within, 'lies', 'lie')} within another, facing inwards as cavities do: {ROOM}.")
     statistics = mesh.statistics | {"pieces_turned": faced.turned}
-    return FacedMesh(replace(mesh, faces=faced.faces, statistics=statistics), notes)
+    return FacedMesh(replace(mesh, faces=faced.faces, statistics=statistics), tuple(notes))
 
 
 def facing_as_given(mesh: Mesh) -> FacedMesh:
@@ -45,5 +52,9 @@ def facing_as_given(mesh: Mesh) -> FacedMesh:
         inside_out = _core.face_outwards(mesh.vertices_in_unit, mesh.faces).turned
     if not inside_out:
         return FacedMesh(mesh)
-    some = "A closed piece faces" if inside_out == 1 else f"{inside_out:,} closed pieces face"
+    some = _pieces(inside_out, "faces", "face")
     return FacedMesh(mesh, (f"{some} inwards, as the given normals do: `orient` wnnc turns such outwards.",))
+
+
+def _pieces(count: int, one_does: str, many_do: str) -> str:
+    return f"A closed piece {one_does}" if count == 1 else f"{count:,} closed pieces {many_do}"

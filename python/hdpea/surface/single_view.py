@@ -12,6 +12,7 @@ from hdpea import _core
 from hdpea.frontend.one_layer import are_of_one_layer
 from hdpea.frontend.roughness import Roughness
 from hdpea.geometry.thinning import rows_along
+from hdpea.surface.sampling_pattern import hardly_seen_from
 
 Vectors = NDArray[np.float64]
 
@@ -147,6 +148,8 @@ def _from_origin(points: Vectors, directions: Vectors, roughness: Roughness, ori
     if (towards @ middle).min() <= WIDEST * np.linalg.norm(middle):
         return None
     if sum(_layered(points, directions, roughness.noise, towards, towards)) > MOST_HIDDEN:
+        return None
+    if hardly_seen_from(points, origin):
         return None
     return View(towards, "seen from one place, the origin: no point lies behind another", True)
 

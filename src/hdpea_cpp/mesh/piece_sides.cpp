@@ -143,8 +143,9 @@ FacedMesh face_outwards(const PointsRef& vertices, const FacesRef& faces) {
   }
   for (const Piece& piece : pieces.all()) {
     const bool face_down = upwards < -kLying * area && piece.lies_face_down();
-    const bool inside_out = piece.closed && piece.volume < 0 && !pieces.is_within_another(piece);
-    if (!face_down && !inside_out) continue;
+    const bool within = piece.volume < 0 && piece.holds_things() && pieces.is_within_another(piece);
+    faced.within += within;
+    if (!face_down && !(piece.closed && piece.volume < 0 && !within)) continue;
     for (Index f : piece.faces) std::swap(faced.faces(f, 1), faced.faces(f, 2));
     ++faced.turned;
   }

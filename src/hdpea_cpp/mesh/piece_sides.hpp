@@ -9,6 +9,7 @@ namespace hdpea {
 struct FacedMesh {
   Faces faces;          ///< as given, those of turned pieces with two corners exchanged
   Index turned = 0;     ///< pieces that were inside out, or face down
+  Index within = 0;     ///< pieces as good as closed that lie within another one, face inwards, and were left so
   double sideless = 0;  ///< share of the area in pieces so open that nothing is inside or outside of them
 };
 

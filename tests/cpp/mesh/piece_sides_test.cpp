@@ -37,6 +37,7 @@ TEST(PieceSides, OnlyTheOutermostPieceIsTurned) {
       EXPECT_NE(agree, nested({{1, false}, {0.1, inner}}).faces == faced.faces);
       EXPECT_EQ(faced.faces.bottomRows(4), given.faces.bottomRows(4));
       EXPECT_LE(faced.turned, 1);
+      EXPECT_EQ(faced.within, !inner);
       EXPECT_EQ(faced.sideless, 0);
     }
   }

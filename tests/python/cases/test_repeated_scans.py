@@ -6,7 +6,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from helpers import clouds
-from helpers.raw_clouds import jittered_copies, repeated_rays
+from helpers.raw_clouds import jittered_copies, noise_by_range, repeated_rays
 from helpers.raw_meshes import assert_ball
 
 from hdpea import reconstruct
@@ -61,3 +61,7 @@ def test_noise_that_grows_with_the_range_is_told_where_it_is_wide() -> None:
     off = abs(np.linalg.norm(made.vertices[made.faces].mean(axis=1), axis=1) - 1)
     # A fifth of the noise at the far side.
     assert np.sqrt(np.square(off).mean()) < 0.2 * 0.0015 * 5**2
+
+
+def test_noise_that_grows_to_two_spacings_leaves_one_closed_ball() -> None:
+    assert_ball(reconstruct(noise_by_range(clouds.sphere_points(8000), 0.1, 2)))

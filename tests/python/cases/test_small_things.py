@@ -5,8 +5,8 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from helpers.clouds import sphere_points
-from helpers.raw_meshes import share_against
+from helpers.clouds import box, sphere_points
+from helpers.raw_meshes import middles, says_it_is_a_guess, share_against
 
 from hdpea import reconstruct
 
@@ -29,6 +29,19 @@ def test_a_ball_above_a_floor_is_whole_and_faces_out(vertices: int | None) -> No
     out = np.where(of_ball[:, None], offsets, [0.0, 0.0, 1.0])
     assert share_against(made, out) == 0
     assert not made.report.missed
+
+
+def test_of_a_thing_in_a_closed_room_it_is_said_that_the_sides_are_a_guess() -> None:
+    room = box(6000, (10, 8, 4))[0]
+    room_and_ball = np.vstack([room, 0.6 * sphere_points(400, 1)])
+    made = reconstruct(room_and_ball)
+    assert (made.report.mesh.components, made.report.mesh.closed) == (2, True)
+    assert says_it_is_a_guess(made)
+    # Sensors decide: the walls face what stands in the room, the ball away from its middle.
+    sensors = np.vstack([np.tile([3.0, 2.0, 1.0], (6000, 1)), 1.2 * sphere_points(400, 1)])
+    seen = reconstruct(room_and_ball, sensors=sensors)
+    assert not says_it_is_a_guess(seen)
+    assert share_against(seen, middles(seen) * np.where(abs(middles(seen)).max(axis=1) < 1, 1, -1)[:, None]) < 0.001
 
 
 @pytest.mark.parametrize("far", [3.0, 30.0, 3e3, 1e5])

@@ -6,6 +6,7 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 from helpers import clouds
+from helpers.raw_clouds import noise_by_range
 
 from hdpea.frontend.roughness import Roughness, roughness_of
 
@@ -53,3 +54,11 @@ def test_of_noise_that_differs_that_of_the_roughest_regions_is_told(
     share = noise_along(points[:, 0])
     points[:, 2] = spacing * share * random.normal(size=10_000)
     assert 0.45 < roughness_of(points).noise < 0.8
+
+
+def test_so_it_is_where_these_are_rougher_than_the_residuals_tell() -> None:
+    points = clouds.sphere(10_000)[0]
+    # A quarter of the points has less than 0.7 spacings, a quarter more than 1.6.
+    assert roughness_of(noise_by_range(points, 0.1, 2)).noise > 1.2
+    # Even noise, where regions differ by chance, is no more than it is.
+    assert roughness_of(noise_by_range(points, 1, 1)).noise == pytest.approx(1, rel=0.15)

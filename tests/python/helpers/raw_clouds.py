@@ -35,6 +35,13 @@ def repeated_rays(count: int, frames: int, noise: float, at_random: bool = False
     return np.vstack([rays * (1 + random.normal(0, noise * spacing_of(count), (count, 1))) for _ in range(frames)])
 
 
+def noise_by_range(points: Array, least: float, most: float) -> Array:
+    """Return points about the origin with spacings of noise every way that grows with the range from (0, 0, 3)."""
+    ranges = np.linalg.norm(points - [0, 0, 3], axis=1, keepdims=True)
+    noise = least + (most - least) * (ranges - ranges.min()) / np.ptp(ranges)
+    return points + spacing_of(len(points)) * noise * np.random.default_rng(1).normal(size=points.shape)
+
+
 def jittered_copies(count: int, copies: int, jitter: float) -> Array:
     """Return the same points of a unit sphere again and again, each nearly where it was."""
     points = sphere_points(count, 1)

@@ -50,6 +50,21 @@ def test_within_another_piece_a_side_is_kept(outer: Array, inner: Array) -> None
 
 
 @pytest.mark.parametrize("inner", [TETRAHEDRON, INSIDE_OUT])
+def test_that_it_may_be_a_room_is_said_of_what_looks_like_a_cavity(inner: Array) -> None:
+    notes = facing_out(mesh_of((CORNERS, TETRAHEDRON), (SMALL, inner))).notes
+    assert any("a guess; in a room" in note for note in notes) == (inner is INSIDE_OUT)
+
+
+def test_so_it_is_of_one_that_has_a_small_gap() -> None:
+    vertices, faces = SMALL, INSIDE_OUT
+    for _ in range(4):
+        vertices, faces = trimesh.remesh.subdivide(vertices, faces)
+    both = np.vstack([CORNERS, vertices])
+    notes = facing_out(Mesh(both, np.vstack([TETRAHEDRON, faces[1:] + len(CORNERS)]), both)).notes
+    assert any("a guess; in a room" in note for note in notes)
+
+
+@pytest.mark.parametrize("inner", [TETRAHEDRON, INSIDE_OUT])
 def test_within_an_open_piece_a_closed_one_faces_out(inner: Array) -> None:
     outer = TETRAHEDRON[:3]
     faces = facing_out(mesh_of((CORNERS, outer), (SMALL, inner))).mesh.faces

@@ -65,6 +65,45 @@ def test_a_height_field_faces_up_on_both_sides_of_a_cliff(noise: float) -> None:
         assert (found.surface.normals[:, 2] > 0).mean() > 0.999
 
 
+def raster_of_hills() -> Array:
+    """Return hills about the z axis, on a grid that is turned."""
+    x, y = (grid.ravel() for grid in np.meshgrid(*[np.linspace(-50, 50, 80)] * 2))
+    places = np.stack([x - 0.5 * y, 0.5 * x + y], axis=1)
+    return np.column_stack([places, 4 * np.sin(x / 20) * np.cos(y / 25)])
+
+
+def ground_around_a_scanner() -> Array:
+    """Return what a scanner 1.8 above flat ground sees of it, up to 12 away, as densely every way."""
+    random = np.random.default_rng(0)
+    around, ranges = 2 * np.pi * random.random(8000), 1.8 / random.uniform(0.15, 1, 8000)
+    away = np.sqrt(ranges**2 - 1.8**2)
+    return np.stack([away * np.cos(around), away * np.sin(around), 0.006 * ranges * random.normal(size=8000)], axis=1)
+
+
+@pytest.mark.parametrize("at", [(0, 0, 120), (10, -5, 200)])
+def test_land_on_a_raster_above_the_origin_faces_up(at: tuple[float, float, float]) -> None:
+    found = found_of(raster_of_hills() + at)
+    assert (found.method, found.from_one_place) == ("viewpoint", False)
+    assert (found.surface.normals[:, 2] > 0).all()
+
+
+@pytest.mark.parametrize("at", [(0, 0, 11), (5, -3, 11)])
+def test_so_does_ground_that_a_scanner_elsewhere_saw(at: tuple[float, float, float]) -> None:
+    found = found_of(ground_around_a_scanner() + at)
+    assert (found.method, found.from_one_place) == ("viewpoint", False)
+    assert (found.surface.normals[:, 2] > 0).mean() > 0.999
+
+
+@pytest.mark.parametrize("degrees", [0, 40])
+def test_a_wall_on_the_grid_of_a_camera_faces_it(degrees: float) -> None:
+    pixels = np.stack(np.meshgrid(*[np.linspace(-0.4, 0.4, 70)] * 2), axis=-1).reshape(-1, 2)
+    tilt = np.tan(np.radians(degrees))
+    depths = 3 / (1 - tilt * pixels[:, :1])  # of the plane z = 3 + tilt x
+    found = found_of(np.hstack([pixels, np.ones_like(depths)]) * depths)
+    assert (found.method, found.from_one_place) == ("viewpoint", True)
+    assert (found.surface.normals[:, 2] < 0).all()
+
+
 @pytest.mark.parametrize("at", [(0, 0, 0), (0, 0, 3), (5, 0, 0), (3e5, 4e6, 10)])
 @pytest.mark.parametrize("shape", clouds.CLOSED)
 def test_closed_clouds_were_not_seen_from_one_place(shape: str, at: tuple[float, float, float]) -> None:
