@@ -108,18 +108,29 @@ void settle(std::vector<Meeting>& corners, const std::vector<CreaseSample>& samp
   }
 }
 
-/// Moves corners to where the tangent planes of the points around them meet, if that is near: of exact points it is
-/// nearer to the truth, but smeared normals cut corners off.
-void settle_exactly(std::vector<Meeting>& corners, const PointsRef& points, const PointsRef& normals) {
-  constexpr double near_by = 0.3;
-  const Neighbors near = nearest_neighbors(points, positions_of(corners), kPlanes);
+/// Moves corners to where the tangent planes of the points around them meet, if these face as sides of the samples do:
+/// of exact points that is nearer to the truth, but smeared normals would cut corners off.
+void settle_exactly(std::vector<Meeting>& corners, const std::vector<CreaseSample>& samples, const Points& positions,
+                    const PointsRef& points, const PointsRef& normals) {
+  constexpr double least_cosine = 0.94, least_share = 0.8;
+  const Neighbors near = nearest_neighbors(points, positions_of(corners), kPlanes),
+                  near_samples = nearest_neighbors(positions, positions_of(corners), kPlanes);
   for (std::size_t c = 0; c < corners.size(); ++c) {
+    const auto around = near_samples.row(static_cast<Index>(c));
+    const auto is_of_a_side = [&](const Vector& normal) {
+      return std::any_of(around.begin(), around.end(), [&](Index s) {
+        return s >= 0 && std::max(samples[s].first.dot(normal), samples[s].second.dot(normal)) >= least_cosine;
+      });
+    };
     MeetingPlanes planes(corners[c].position, corners[c].spacing);
+    double count = 0, of_a_side = 0;
     for (Index p : near.row(static_cast<Index>(c))) {
-      if (p >= 0) planes.add(points.row(p), normals.row(p));
+      if (p < 0) break;
+      planes.add(points.row(p), normals.row(p));
+      of_a_side += is_of_a_side(normals.row(p));
+      count += 1;
     }
-    const Vector found = planes.meeting();
-    if ((found - corners[c].position).norm() <= near_by * corners[c].spacing) corners[c].position = found;
+    if (of_a_side >= least_share * count) corners[c].position = planes.meeting();
   }
 }
 
@@ -192,7 +203,7 @@ std::vector<Vector> join_at_corners(std::vector<CreaseSample>& samples, const Po
   std::vector<Meeting> found = merged(meetings(samples, positions));
   if (found.empty()) return {};
   for (int round = 0; round < rounds; ++round) settle(found, samples, positions);
-  for (int round = 0; round < rounds; ++round) settle_exactly(found, points, normals);
+  for (int round = 0; round < rounds; ++round) settle_exactly(found, samples, positions, points, normals);
   const Neighbors near = nearest_neighbors(positions, positions_of(found), neighbors);
   std::vector<Vector> corners;
   std::vector<CreaseSample> added;
