@@ -93,36 +93,24 @@ class MeetingPlanes {
   Vector right_ = Vector::Zero();
 };
 
-constexpr Index kPlanes = 12;
-
-/// Moves corners to where the planes of the samples around them meet.
-void settle(std::vector<Meeting>& corners, const std::vector<CreaseSample>& samples, const Points& positions) {
-  const Neighbors near = nearest_neighbors(positions, positions_of(corners), kPlanes);
+/// Moves corners to where the tangent planes of the points around them meet. Where these do not face as sides of the
+/// samples do, they are smeared and would cut the corner off: it stays where it was, if that is near a sample.
+std::vector<Meeting> settled(const std::vector<Meeting>& corners, const std::vector<CreaseSample>& samples,
+                             const Points& positions, const PointsRef& points, const PointsRef& normals) {
+  constexpr Index neighbors = 12;
+  constexpr double least_cosine = 0.94, least_share = 0.8, near_by = 2.5;
+  const Neighbors near = nearest_neighbors(points, positions_of(corners), neighbors),
+                  near_samples = nearest_neighbors(positions, positions_of(corners), neighbors);
+  std::vector<Meeting> kept;
   for (std::size_t c = 0; c < corners.size(); ++c) {
-    MeetingPlanes planes(corners[c].position, corners[c].spacing);
-    for (Index s : near.row(static_cast<Index>(c))) {
-      if (s < 0) break;
-      for (const Vector& normal : {samples[s].first, samples[s].second}) planes.add(samples[s].position, normal);
-    }
-    corners[c].position = planes.meeting();
-  }
-}
-
-/// Moves corners to where the tangent planes of the points around them meet, if these face as sides of the samples do:
-/// of exact points that is nearer to the truth, but smeared normals would cut corners off.
-void settle_exactly(std::vector<Meeting>& corners, const std::vector<CreaseSample>& samples, const Points& positions,
-                    const PointsRef& points, const PointsRef& normals) {
-  constexpr double least_cosine = 0.94, least_share = 0.8;
-  const Neighbors near = nearest_neighbors(points, positions_of(corners), kPlanes),
-                  near_samples = nearest_neighbors(positions, positions_of(corners), kPlanes);
-  for (std::size_t c = 0; c < corners.size(); ++c) {
+    Meeting corner = corners[c];
     const auto around = near_samples.row(static_cast<Index>(c));
     const auto is_of_a_side = [&](const Vector& normal) {
       return std::any_of(around.begin(), around.end(), [&](Index s) {
         return s >= 0 && std::max(samples[s].first.dot(normal), samples[s].second.dot(normal)) >= least_cosine;
       });
     };
-    MeetingPlanes planes(corners[c].position, corners[c].spacing);
+    MeetingPlanes planes(corner.position, corner.spacing);
     double count = 0, of_a_side = 0;
     for (Index p : near.row(static_cast<Index>(c))) {
       if (p < 0) break;
@@ -130,8 +118,14 @@ void settle_exactly(std::vector<Meeting>& corners, const std::vector<CreaseSampl
       of_a_side += is_of_a_side(normals.row(p));
       count += 1;
     }
-    if (of_a_side >= least_share * count) corners[c].position = planes.meeting();
+    if (of_a_side >= least_share * count) {
+      corner.position = planes.meeting();
+    } else if ((samples[around(0)].position - corner.position).norm() > near_by * corner.spacing) {
+      continue;
+    }
+    kept.push_back(corner);
   }
+  return kept;
 }
 
 /// The lines that end in a corner, by their samples nearest to it.
@@ -201,9 +195,10 @@ std::vector<Vector> join_at_corners(std::vector<CreaseSample>& samples, const Po
   if (samples.empty()) return {};
   const Points positions = crease_positions(samples);
   std::vector<Meeting> found = merged(meetings(samples, positions));
+  for (int round = 0; round < rounds && !found.empty(); ++round) {
+    found = settled(found, samples, positions, points, normals);
+  }
   if (found.empty()) return {};
-  for (int round = 0; round < rounds; ++round) settle(found, samples, positions);
-  for (int round = 0; round < rounds; ++round) settle_exactly(found, samples, positions, points, normals);
   const Neighbors near = nearest_neighbors(positions, positions_of(found), neighbors);
   std::vector<Vector> corners;
   std::vector<CreaseSample> added;
