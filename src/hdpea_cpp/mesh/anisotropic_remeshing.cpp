@@ -53,6 +53,9 @@ double angle_between(const Coordinate& u, const Coordinate& v) {
 /// by 0.007.
 constexpr double kGap = 1, kGapOfVertices = 0.25;
 
+/// A point faces against those around it whose normal has less than this cosine with their sum.
+constexpr double kBothWays = -0.5;
+
 enum class Aim { kValence, kDelaunay };
 
 class Remesher {
@@ -218,20 +221,27 @@ class Remesher {
     return least;
   }
 
-  /// The farthest that a vertex may move from the points around it, by their spacing and that of the vertices.
+  /// The farthest that a vertex may move from the points around it, by their spacing and that of the vertices. Where
+  /// the surface ends, or points face both ways, any distance will do.
   double squared_gap(Vertex v) const {
-    double area = 0, count = 0;
+    double area = 0, vertices = 0, points = 0;
+    Vector normals = Vector::Zero();
+    bool ends = false;
     const auto look = [&](Vertex u) {
       for (const Halfedge h : mesh_.halfedges_around_target(mesh_.halfedge(u))) {
         if (!mesh_.is_border(h)) area += guard_.area(mesh_.face(h)) / 3;
       }
-      count += 1;
+      ends |= mesh_.is_border(u);
+      vertices += 1;
+      normals += cells_.planes(u.idx()).normals;
+      points += cells_.planes(u.idx()).count;
     };
     look(v);
     for (const Vertex u : mesh_.vertices_around_target(mesh_.halfedge(v))) look(u);
-    double points = 0;
-    visit_points_around(v, [&](Index) { points += 1; });
-    return area * std::max(kGap * kGap / std::max(points, 1.0), kGapOfVertices * kGapOfVertices / count);
+    const double least = kBothWays * normals.norm();
+    visit_points_around(v, [&](Index point) { ends |= cloud_.normals.row(point).dot(normals) < least; });
+    if (ends) return std::numeric_limits<double>::infinity();
+    return area * std::max(kGap * kGap / std::max(points, 1.0), kGapOfVertices * kGapOfVertices / vertices);
   }
 
   /// Of the faces around a vertex, in R^d, by area.

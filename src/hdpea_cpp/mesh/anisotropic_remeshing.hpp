@@ -31,9 +31,9 @@ struct EmbeddedMesh {
 /// What would harm is not done. Neither a move nor a flip may take the points of the vertices concerned farther from
 /// the faces around these than they are, or than twice what points are on average before the first round (once, where
 /// that is much), nor a single point farther than it is, or than 5.5 times that average; nor may it turn a face away
-/// from its points; nor may a vertex move farther from the points around it than it is, or than they are apart.
-/// Vertices on borders and those that are fixed do not move. So the topology, the numbers and the order of vertices and
-/// faces stay.
+/// from its points; nor may a vertex move farther from the points around it than it is, or than they are apart, unless
+/// the surface ends there. Vertices on borders and those that are fixed do not move. So the topology, the numbers and
+/// the order of vertices and faces stay.
 ///
 /// @param vertices     (v, 3)
 /// @param coordinates  (v, d) of the vertices in the embedding, near the surface
