@@ -67,18 +67,22 @@ def _uneven_as_seen(points: NDArray[np.float64]) -> float | None:
         distances = np.linalg.norm(points, axis=1)
     if len(points) <= NEAREST or not np.isfinite(distances).all() or not distances.all():
         return None
-    along = _unevenness(points)
+    along = unevenness(points)
     if along < LEAST_UNEVEN:
         return None
-    share = _unevenness(points / distances[:, None]) / along
+    share = unevenness(points / distances[:, None]) / along
     return share if share < LIKELY_UNEVEN_AS_SEEN else None
 
 
-def _unevenness(points: NDArray[np.float64]) -> float:
+def unevenness(points: NDArray[np.float64], nearest: int = NEAREST, left_out: float = 0.1) -> float:
+    """Return the logarithm of how many times the largest distance of points (n, 3) to a nearest other is the least.
+
+    It is that to the last of so many nearest ones, and a share at either end is left out. Infinite if points coincide.
+    """
     places = np.ascontiguousarray(points[rows_along(len(points), SAMPLES)])
     with core_errors_translated():
-        last = _core.nearest_neighbors(np.ascontiguousarray(points), places, NEAREST + 1)[:, -1]
-    low, high = np.quantile(np.linalg.norm(points[last] - places, axis=1), [0.1, 0.9])
+        last = _core.nearest_neighbors(np.ascontiguousarray(points), places, nearest + 1)[:, -1]
+    low, high = np.quantile(np.linalg.norm(points[last] - places, axis=1), [left_out, 1 - left_out])
     return float(np.log(high / low)) if low > 0 else np.inf
 
 

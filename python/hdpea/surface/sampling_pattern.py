@@ -6,9 +6,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from hdpea import _core
-from hdpea.frontend.vantage import NEAREST, SAMPLES
-from hdpea.geometry.thinning import rows_along
+from hdpea.frontend.vantage import NEAREST, unevenness
 
 Vectors = NDArray[np.float64]
 
@@ -32,28 +30,14 @@ def hardly_seen_from(points: Vectors, origin: Vectors) -> bool:
     That is even as seen or, fused of many pictures, along the surface: ground around a scanner elsewhere is neither.
     And land on a grid in plan is on none in a picture.
     """
-    rows = rows_along(len(points), SAMPLES)
     sight = points - origin
     ranges = np.linalg.norm(sight, axis=1, keepdims=True)
     if len(points) <= NEAREST or not ranges.all():
         return False
     rays = sight / ranges
-    if min(_spread(_distances(places, rows, NEAREST), 0.1) for places in (points, rays)) > MOST_UNEVEN:
+    if min(unevenness(places) for places in (points, rays)) > MOST_UNEVEN:
         return True
     picture = rays / (rays @ rays.mean(axis=0))[:, None]
     plan = points * [1.0, 1.0, 0.0]
-    of_plan, of_picture = (_spread(_distances(places, rows, 1), 0.02) for places in (plan, picture))
+    of_plan, of_picture = (unevenness(places, 1, 0.02) for places in (plan, picture))
     return of_plan < GRID and of_picture > max(LEAST_OF_PICTURE, RATIO * of_plan)
-
-
-def _distances(places: Vectors, rows: NDArray[np.int64], count: int) -> Vectors:
-    """Return how far the places (n, 3) of the rows (m,) are from the last of so many nearest others, (m,)."""
-    places = np.ascontiguousarray(places)
-    last = _core.nearest_neighbors(places, np.ascontiguousarray(places[rows]), count + 1)[:, -1]
-    return np.asarray(np.linalg.norm(places[last] - places[rows], axis=1))
-
-
-def _spread(distances: Vectors, left_out: float) -> float:
-    """Return the logarithm of how many times the largest of the distances (m,) are the least, but for a share."""
-    low, high = np.quantile(distances, [left_out, 1 - left_out])
-    return float(np.log(high / low)) if low > 0 else np.inf
