@@ -55,6 +55,7 @@ class Alignment {
   TriangleMesh run() {
     take_corners();
     hold_those_on_creases();
+    hold_those_beyond_both_sides();
     for (int round = 0; round < kRounds; ++round) {
       const Index before = changes_;
       const std::vector<Crossing> crossings = find_crossings();
@@ -104,6 +105,15 @@ class Alignment {
         if (lines_.covers(s, at(v)) && lines_.distance(s, at(v)) <= kOnCrease * lines_.spacing(s))
           move(v, lines_.foot(s, at(v)), s);
       }
+    }
+  }
+
+  /// Vertices in the air in front of a crease: of both its sides the crease is the nearest place.
+  void hold_those_beyond_both_sides() {
+    for (Index v = 0; v < vertices_.rows(); ++v) {
+      const Index s = near_(v, 0);
+      if (held_[v] || !lines_.covers(s, at(v)) || !lines_.is_beyond_both(s, at(v))) continue;
+      move(v, lines_.foot(s, at(v)), s);
     }
   }
 

@@ -142,8 +142,7 @@ std::vector<CreaseSample> thinned(std::vector<CreaseSample> samples) {
   return kept;
 }
 
-std::vector<CreaseSample> on_long_lines(const std::vector<CreaseSample>& samples, double min_length,
-                                        double strong_residual) {
+std::vector<CreaseSample> on_long_lines(const std::vector<CreaseSample>& samples, double min_length) {
   constexpr Index neighbors = 12, far_neighbors = 48;
   constexpr double most_apart = 2, most_apart_on_arc = 3, most_off_of_weak = 0.25;
   constexpr int least_of_piece = 4;
@@ -154,7 +153,7 @@ std::vector<CreaseSample> on_long_lines(const std::vector<CreaseSample>& samples
   const auto apart = [&](Index i, Index j) {
     return (positions.row(i) - positions.row(j)).norm() / samples[i].spacing;
   };
-  const auto strong = [&](Index i) { return samples[i].residual <= strong_residual; };
+  const auto strong = [&](Index i) { return samples[i].strong; };
   // What is weak has to lie on a line more exactly.
   const auto joined = [&](Index i, Index j) {
     const bool both_strong = strong(i) && strong(j);

@@ -106,8 +106,10 @@ class Search {
     if (!((wedge->position - around.centre).norm() <= reach * around.spacing)) return std::nullopt;
     const double smooth = quadric_residual(around, (wedge->first + wedge->second).normalized());
     if (!(wedge->residual <= share * smooth)) return std::nullopt;
-    return CreaseSample{wedge->position, wedge->direction, wedge->first,
-                        wedge->second,   around.spacing,   wedge->residual / smooth};
+    const double residual = wedge->residual / smooth;
+    const bool strong = residual <= (wedge->bent ? options_.strong_bent : options_.strong_residual);
+    return CreaseSample{wedge->position, wedge->direction, wedge->first, wedge->second,
+                        wedge->convex,   around.spacing,   residual,     strong};
   }
 
   static std::vector<CreaseSample> gathered(const Found& found) {
@@ -172,7 +174,7 @@ Creases find_creases(const PointsRef& points, const PointsRef& normals, const Cr
     for (int round = 0; round < rounds; ++round) found = search.around_samples(found);
     samples.insert(samples.end(), found.begin(), found.end());
   }
-  samples = gaps_filled(on_long_lines(thinned(samples), options.min_length, options.strong_residual));
+  samples = gaps_filled(on_long_lines(thinned(samples), options.min_length));
   drop_off_surface(samples, points, normals);
   std::vector<Vector> corners = join_at_corners(samples, points, normals);
   return {std::move(samples), std::move(corners)};

@@ -17,6 +17,7 @@ struct CreaseOptions {
   double min_angle = 40;         ///< degrees between their normals
   double max_residual = 0.5;     ///< variance off the half-planes, as a share of that off a quadratic surface
   double strong_residual = 0.4;  ///< the same where a place proves a crease, and does not only continue one
+  double strong_bent = 0.16;     ///< the same where the sides bend: such a wedge fits more places by chance
   double min_length = 16;        ///< of lines of creases that meet, together, in spacings, where they are strong
 };
 
@@ -25,8 +26,10 @@ struct CreaseSample {
   Eigen::Vector3d position;
   Eigen::Vector3d direction;      ///< unit, along the crease, of either sign
   Eigen::Vector3d first, second;  ///< unit normals of the planes on its two sides, on the side of those of the points
+  bool convex;                    ///< whether each side lies behind the plane of the other
   double spacing;                 ///< of the points there
-  double residual;                ///< variance off the planes, as a share of that off a quadratic surface
+  double residual;                ///< variance off the sides, as a share of that off a quadratic surface
+  bool strong;                    ///< whether it proves a crease, and does not only continue one
 };
 
 /// Sharp edges that points show.

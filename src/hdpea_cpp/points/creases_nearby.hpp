@@ -36,6 +36,14 @@ class CreasesNearby {
     return std::min(std::abs(sample.first.dot(offset(s, x))), std::abs(sample.second.dot(offset(s, x))));
   }
 
+  /// Whether the crease is the nearest place of both its sides: in front of a convex one, or behind a concave one.
+  bool is_beyond_both(Index s, const Eigen::RowVector3d& x) const {
+    const CreaseSample& sample = creases_.samples[s];
+    const double cosine = sample.first.dot(sample.second), sense = sample.convex ? 1 : -1;
+    const double first = sample.first.dot(offset(s, x)), second = sample.second.dot(offset(s, x));
+    return sense * (cosine * first - second) < 0 && sense * (cosine * second - first) < 0;
+  }
+
  private:
   static constexpr Index kNearest = 16;
   /// In spacings each way: where few points lie on a crease, its samples are two and a half apart.

@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hdpea_cpp/points/bent_wedge.hpp"
+#include "hdpea_cpp/points/planes.hpp"
+
 namespace hdpea {
 namespace {
 
@@ -13,9 +16,8 @@ using Vector = Eigen::Vector3d;
 /// Unknowns of two planes, and of a quadratic height field.
 constexpr double kUnknowns = 6;
 
-struct Plane {
-  Vector centre, normal;
-};
+/// A bent wedge is taken if its variance is less than this share of that of the straight one.
+constexpr double kMuchBetter = 0.7;
 
 double variance(double squares, std::size_t count) {
   return squares / std::max(static_cast<double>(count) - kUnknowns, 1.0);
@@ -42,19 +44,6 @@ std::optional<Plane> fit_plane(const Neighborhood& around, const std::vector<cha
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(squares - count * mean * mean.transpose());
   const Vector normal = solver.eigenvectors().col(0);
   return Plane{around.centre + around.spacing * mean, normal.dot(normal_sum) < 0 ? Vector(-normal) : normal};
-}
-
-/// The point on both planes that is nearest to a place, and the direction of their line.
-std::optional<std::pair<Vector, Vector>> intersection(const Plane& one, const Plane& other, const Vector& place) {
-  constexpr double least_sine = 0.3;
-  const Vector across = one.normal.cross(other.normal);
-  const double sine = across.norm();
-  if (!(sine >= least_sine)) return std::nullopt;
-  const Vector direction = across / sine;
-  Eigen::Matrix3d rows;
-  rows << one.normal.transpose(), other.normal.transpose(), direction.transpose();
-  const Vector right(one.normal.dot(one.centre - place), other.normal.dot(other.centre - place), 0);
-  return std::pair{Vector(place + rows.inverse() * right), direction};
 }
 
 }  // namespace
@@ -94,10 +83,11 @@ std::optional<Wedge> fit_wedge(const Neighborhood& around, const Vector& first, 
     if (!one || !other) return std::nullopt;
     const auto line = intersection(*one, *other, around.centre);
     if (!line) return std::nullopt;
-    wedge = {line->first, line->second, one->normal, other->normal, 0};
     // The plane that halves the angle divides the points; which side is whose, the points of each tell.
     Vector across = one->normal - other->normal;
-    if (across.dot(one->centre - other->centre) < 0) across = -across;
+    const bool convex = across.dot(one->centre - other->centre) >= 0;
+    if (!convex) across = -across;
+    wedge = {line->first, line->second, one->normal, other->normal, convex, 0, false};
     const std::vector<char> before = sides;
     for (std::size_t i = 0; i < count; ++i) sides[i] = across.dot(around.points[i] - wedge.position) > 0;
     if (sides == before) break;
@@ -109,7 +99,8 @@ std::optional<Wedge> fit_wedge(const Neighborhood& around, const Vector& first, 
     squares += height * height;
   }
   wedge.residual = variance(squares, count);
-  return wedge;
+  const auto bent = fit_bent_wedge(around, sides, wedge);
+  return bent && bent->residual < kMuchBetter * wedge.residual ? bent : wedge;
 }
 
 double quadric_residual(const Neighborhood& around, const Vector& axis) {

@@ -21,13 +21,16 @@ struct Wedge {
   Eigen::Vector3d position;       ///< of the line, nearest to the centre of the neighbourhood
   Eigen::Vector3d direction;      ///< of the line, unit
   Eigen::Vector3d first, second;  ///< unit normals of the planes, on the side of those of the points
-  double residual;                ///< variance of the points off their half-planes, in squared spacings
+  bool convex;                    ///< whether each side lies behind the plane of the other
+  double residual;                ///< variance of the points off its sides, in squared spacings
+  bool bent;                      ///< whether the sides bend along the line, and the planes touch them there
 };
 
 /// The two normals that differ most, and up to two more that differ from all before, as around a corner.
 std::vector<Eigen::Vector3d> differing_normals(const Neighborhood& around);
 
-/// Fits a wedge: points are assigned to half-planes and planes to points, in turn, as in k-means.
+/// Fits a wedge: points are assigned to half-planes and planes to points, in turn, as in k-means. Where sides that bend
+/// along the line fit much better, it is that of the planes that touch these.
 ///
 /// @param first, second  unit normals to begin with: points belong to the one that theirs is nearer to
 /// @returns nothing if a plane has fewer than 5 points, or the planes differ by less than about 17 degrees

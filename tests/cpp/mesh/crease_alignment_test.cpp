@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "hdpea_cpp/base/errors.hpp"
 #include "hdpea_cpp/mesh/crease_edges.hpp"
 #include "hdpea_cpp/mesh/mesh_check.hpp"
@@ -25,7 +27,7 @@ shapes::Mesh folded_grid() {
 Creases fold(double spacing = 0.04, double apart = 0.5) {
   Creases creases;
   for (double y = 0; y <= 1; y += apart * spacing) {
-    creases.samples.push_back({{0.45, y, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 0}, spacing, 0});
+    creases.samples.push_back({{0.45, y, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 0}, true, spacing, 0, true});
   }
   return creases;
 }
@@ -59,6 +61,19 @@ TEST(CreaseAlignment, ReachesAcrossGapsBetweenSamples) {
 TEST(CreaseAlignment, LeavesVerticesThatAreManySpacingsOff) {
   const auto grid = folded_grid();
   EXPECT_EQ(align_to_creases(grid.vertices, grid.faces, fold(0.01)).vertices, grid.vertices);
+}
+
+TEST(CreaseAlignment, TakesAVertexOutOfTheAirInFrontOfTheCrease) {
+  const auto grid = folded_grid();
+  TriangleMesh mesh = align_to_creases(grid.vertices, grid.faces, fold());
+  Index v = 0;
+  const auto on_crease = [&](Index i) { return std::hypot(mesh.vertices(i, 0) - 0.45, mesh.vertices(i, 2)) < 1e-9; };
+  while (!on_crease(v) || std::abs(mesh.vertices(v, 1) - 0.5) > 0.1) ++v;
+  // As far in front of one side as of the other, so that none of its edges crosses.
+  mesh.vertices(v, 0) += 0.04;
+  mesh.vertices(v, 2) = mesh.vertices(v, 0) - 0.45;
+  mesh = align_to_creases(mesh.vertices, mesh.faces, fold());
+  EXPECT_TRUE(on_crease(v));
 }
 
 TEST(CreaseAlignment, KeepsTheTopology) {

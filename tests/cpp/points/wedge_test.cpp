@@ -35,6 +35,26 @@ TEST(Wedge, OfTwoHalfPlanesIsTheirLine) {
   EXPECT_GT(quadric_residual(around, (normals[0] + normals[1]).normalized()), 0.01);
 }
 
+TEST(Wedge, OfARimTouchesItThoughItBends) {
+  // The mouth of a hole with a radius of 5 spacings. A straight wedge would lie 0.4 inside.
+  constexpr double radius = 5, turn = 0.2;
+  Neighborhood around{{}, {}, {radius + 0.1, 0.2, -0.1}, 1};
+  for (int j = -3; j <= 3; ++j) {
+    const Eigen::Vector3d out(std::cos(turn * j), std::sin(turn * j), 0);
+    for (int i = 1; i <= 3; ++i) {
+      around.points.push_back((radius + i - 0.5) * out);
+      around.normals.emplace_back(0, 0, 1);
+      around.points.push_back(radius * out - Eigen::Vector3d(0, 0, i - 0.5));
+      around.normals.push_back(-out);
+    }
+  }
+  const auto wedge = fit_wedge(around, {0, 0, 1}, {-1, 0, 0});
+  ASSERT_TRUE(wedge);
+  EXPECT_TRUE(wedge->convex);
+  EXPECT_NEAR(wedge->position.head<2>().norm(), radius, 0.1);
+  EXPECT_NEAR(wedge->position.z(), 0, 0.1);
+}
+
 TEST(Wedge, OfOnePlaneIsNone) {
   Neighborhood around = corner_of_a_box();
   for (auto& point : around.points) point.z() = 0;
