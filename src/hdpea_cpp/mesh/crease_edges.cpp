@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <vector>
 
+#include "hdpea_cpp/base/angles.hpp"
 #include "hdpea_cpp/base/area_vector.hpp"
 #include "hdpea_cpp/base/checks.hpp"
 #include "hdpea_cpp/mesh/flippable_mesh.hpp"
@@ -19,8 +19,6 @@ using Vector = Eigen::RowVector3d;
 /// Of an edge along a crease: the least angle between its faces and the most to the crease, in degrees, and the
 /// farthest that its middle lies off, in spacings.
 constexpr double kSharp = 30, kTurned = 20, kOff = 0.5;
-
-double cosine_of(double degrees) { return std::cos(degrees * std::numbers::pi / 180); }
 
 /// The half-edges of lower index of all edges with at least the least angle between their faces.
 std::vector<Index> sharp_edges(const PointsRef& vertices, const FlippableMesh& mesh) {

@@ -3,12 +3,11 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
-#include <cmath>
-#include <numbers>
 #include <tuple>
 #include <utility>
 #include <vector>
 
+#include "hdpea_cpp/base/angles.hpp"
 #include "hdpea_cpp/base/checks.hpp"
 #include "hdpea_cpp/base/errors.hpp"
 #include "hdpea_cpp/mesh/candidate_shape.hpp"
@@ -21,17 +20,15 @@ namespace {
 
 using Verdict = IncrementalManifold::Verdict;
 
-double radians(double degrees) { return degrees * std::numbers::pi / 180; }
-
 class Extractor {
  public:
   Extractor(const CoordinatesRef& coordinates, const PointsRef& normals,
             const Eigen::Ref<const Eigen::VectorXd>& disk_radii, const ExtractionOptions& options)
       : shape_(coordinates, normals, disk_radii),
         options_(options),
-        least_fold_cosine_(std::cos(radians(options.max_fold))),
-        least_normal_cosine_(std::cos(radians(options.max_normal_angle))),
-        least_lone_cosine_(std::cos(radians(options.max_lone_angle))),
+        least_fold_cosine_(cosine_of(options.max_fold)),
+        least_normal_cosine_(cosine_of(options.max_normal_angle)),
+        least_lone_cosine_(cosine_of(options.max_lone_angle)),
         mesh_(coordinates.rows()) {}
 
   void insert_candidates(const Candidates& candidates);

@@ -2,12 +2,11 @@
 #include "hdpea_cpp/mesh/refinement.hpp"
 
 #include <Eigen/Dense>
-#include <cmath>
-#include <numbers>
 #include <numeric>
 #include <utility>
 #include <vector>
 
+#include "hdpea_cpp/base/angles.hpp"
 #include "hdpea_cpp/base/area_vector.hpp"
 #include "hdpea_cpp/base/checks.hpp"
 #include "hdpea_cpp/base/errors.hpp"
@@ -142,7 +141,7 @@ Points take_safe_step(const Points& outward, const Points& from, const Points& t
                       const RefinementOptions& options) {
   constexpr int halvings = 5;
   const Points before = area_vectors(from, faces);
-  const double least_cosine = std::cos(options.max_turn * std::numbers::pi / 180);
+  const double least_cosine = cosine_of(options.max_turn);
   Eigen::VectorXd step = Eigen::VectorXd::Ones(from.rows());
   Points moved = to;
   for (int round = 0;; ++round) {

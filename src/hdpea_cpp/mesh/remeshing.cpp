@@ -9,10 +9,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 #include <vector>
 
+#include "hdpea_cpp/base/angles.hpp"
 #include "hdpea_cpp/base/area_vector.hpp"
 #include "hdpea_cpp/base/checks.hpp"
 #include "hdpea_cpp/base/errors.hpp"
@@ -77,7 +77,7 @@ void collapse_edges_without_length(SurfaceMesh& mesh, double edge_length) {
 /// Marks the vertices at which the border turns by more than the angle: CGAL would cut such corners off.
 void mark_border_corners(const SurfaceMesh& mesh, double sharp_angle,
                          SurfaceMesh::Property_map<SurfaceMesh::Vertex_index, bool>& corner) {
-  const double straight = std::cos(sharp_angle * std::numbers::pi / 180);
+  const double straight = cosine_of(sharp_angle);
   for (const auto h : mesh.halfedges()) {
     if (!mesh.is_border(h)) continue;
     const Point &from = mesh.point(mesh.source(h)), &at = mesh.point(mesh.target(h)),

@@ -4,9 +4,9 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <optional>
 
+#include "hdpea_cpp/base/angles.hpp"
 #include "hdpea_cpp/base/disjoint_sets.hpp"
 #include "hdpea_cpp/points/neighbors.hpp"
 
@@ -23,8 +23,6 @@ constexpr double kTurnedAcrossGap = 12;
 
 /// The widest gap in a line, in spacings.
 constexpr double kMostGap = 6;
-
-double cosine_of(double degrees) { return std::cos(degrees * std::numbers::pi / 180); }
 
 /// Whether the directions and sides of two samples differ by at most an angle, in degrees.
 bool are_turned_alike(const CreaseSample& one, const CreaseSample& other, double most_turned) {

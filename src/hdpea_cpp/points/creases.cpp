@@ -7,6 +7,7 @@
 #include <numbers>
 #include <optional>
 
+#include "hdpea_cpp/base/angles.hpp"
 #include "hdpea_cpp/base/checks.hpp"
 #include "hdpea_cpp/base/errors.hpp"
 #include "hdpea_cpp/base/parallel.hpp"
@@ -27,8 +28,6 @@ constexpr int kOfSpacing = 12;
 
 /// Nearest points to search for so many of two sides: some may belong to a third, or to another wall.
 Index candidates(Index neighbors) { return neighbors * 3 / 2; }
-
-double cosine_of(double degrees) { return std::cos(degrees * std::numbers::pi / 180); }
 
 class Search {
  public:
