@@ -7,9 +7,8 @@
 #include <tuple>
 #include <vector>
 
-#include "hdpea_cpp/base/area_vector.hpp"
 #include "hdpea_cpp/base/checks.hpp"
-#include "hdpea_cpp/mesh/flippable_mesh.hpp"
+#include "hdpea_cpp/mesh/guarded_mesh.hpp"
 #include "hdpea_cpp/points/creases_nearby.hpp"
 #include "hdpea_cpp/points/neighbors.hpp"
 
@@ -32,9 +31,6 @@ constexpr double kNearest = 0.2, kNear = 0.35, kFarthest = 0.7;
 constexpr double kFarthestOfSpacing = 1.5;
 /// What is this near a crease, in its spacings, lies on it already.
 constexpr double kOnCrease = 0.05;
-/// No face may turn by more than the angle of this cosine, nor shrink below this share of its area by a move, or of its
-/// longest edge squared by a flip.
-constexpr double kLeastCosine = 0.1, kLeastShare = 0.05, kLeastOfEdge = 0.02;
 /// An edge crosses a crease that passes by within shares of its length and of the crease's spacing, and not in front of
 /// the sheets that meet there.
 constexpr double kBeside = 0.5, kInFront = 0.25, kOfSpacing = 0.25;
@@ -46,10 +42,10 @@ constexpr double kFlat = 0.15;
 class Alignment {
  public:
   Alignment(const PointsRef& vertices, const FacesRef& faces, const Creases& creases, const MaskRef& fixed)
-      : creases_(creases), lines_(creases), mesh_(faces, vertices.rows()), vertices_(vertices), fixed_(fixed) {
+      : creases_(creases), lines_(creases), mesh_(vertices, faces), edges_(mesh_.topology()), fixed_(fixed) {
     held_.assign(static_cast<std::size_t>(vertices.rows()), false);
-    lengths_ = mean_lengths();
-    near_ = lines_.near(vertices_);
+    lengths_ = mesh_.mean_lengths();
+    near_ = lines_.near(mesh_.vertices());
   }
 
   TriangleMesh run() {
@@ -65,29 +61,17 @@ class Alignment {
       flip_flat_faces();
       if (changes_ == before) break;
     }
-    return {vertices_, mesh_.faces()};
+    return {mesh_.vertices(), edges_.faces()};
   }
 
  private:
-  Vector at(Index v) const { return vertices_.row(v); }
-
-  Eigen::VectorXd mean_lengths() const {
-    Eigen::VectorXd sums = Eigen::VectorXd::Zero(vertices_.rows()), counts = sums;
-    for (Index h = 0; h < mesh_.halfedges(); ++h) {
-      const double length = (at(mesh_.source(h)) - at(mesh_.target(h))).norm();
-      for (Index v : {mesh_.source(h), mesh_.target(h)}) {
-        sums(v) += length;
-        counts(v) += 1;
-      }
-    }
-    return sums.array() / counts.array().max(1);
-  }
+  Vector at(Index v) const { return mesh_.at(v); }
 
   void take_corners() {
     constexpr Index candidates = 4;
     if (creases_.corners.empty()) return;
     const Points corners = crease_corners(creases_);
-    const Neighbors near = nearest_neighbors(vertices_, corners, candidates), samples = lines_.near(corners);
+    const Neighbors near = nearest_neighbors(mesh_.vertices(), corners, candidates), samples = lines_.near(corners);
     for (Index c = 0; c < corners.rows(); ++c) {
       for (Index v : near.row(c)) {
         if (v < 0 || held_[v]) continue;
@@ -99,7 +83,7 @@ class Alignment {
 
   /// Vertices that lie on a crease already: of their edges none crosses it.
   void hold_those_on_creases() {
-    for (Index v = 0; v < vertices_.rows(); ++v) {
+    for (Index v = 0; v < mesh_.vertices().rows(); ++v) {
       for (Index s : near_.row(v)) {
         if (held_[v] || s < 0) break;
         if (lines_.covers(s, at(v)) && lines_.distance(s, at(v)) <= kOnCrease * lines_.spacing(s))
@@ -110,53 +94,34 @@ class Alignment {
 
   /// Vertices in the air in front of a crease: of both its sides the crease is the nearest place.
   void hold_those_beyond_both_sides() {
-    for (Index v = 0; v < vertices_.rows(); ++v) {
+    for (Index v = 0; v < mesh_.vertices().rows(); ++v) {
       const Index s = near_(v, 0);
       if (held_[v] || !lines_.covers(s, at(v)) || !lines_.is_beyond_both(s, at(v))) continue;
       move(v, lines_.foot(s, at(v)), s);
     }
   }
 
-  /// Moves a vertex onto a crease near one of its samples, unless that is too far, or would turn a face over or squash
-  /// it.
+  /// Moves a vertex onto a crease near one of its samples, unless that is too far or harms a face.
   bool move(Index v, const Vector& to, Index sample) {
     if (fixed_.size() > 0 && fixed_(v)) return false;
-    const Vector from = at(v);
-    if ((to - from).norm() > kFarthestOfSpacing * lines_.spacing(sample)) return false;
-    const std::vector<Index> around = mesh_.faces_around(v);
-    std::vector<Vector> before;
-    for (Index f : around) before.push_back(area(f));
-    vertices_.row(v) = to;
-    for (std::size_t i = 0; i < around.size(); ++i) {
-      const Vector after = area(around[i]);
-      if (!turns(before[i], after) && after.norm() > kLeastShare * before[i].norm()) continue;
-      vertices_.row(v) = from;
-      return false;
-    }
+    if ((to - at(v)).norm() > kFarthestOfSpacing * lines_.spacing(sample)) return false;
+    if (!mesh_.move(v, to)) return false;
     ++changes_;
     held_[v] = true;
     return true;
   }
 
-  static bool turns(const Vector& before, const Vector& after) {
-    return after.dot(before) <= kLeastCosine * after.norm() * before.norm();
-  }
-
-  Vector area(Index f) const {
-    return area_vector(at(mesh_.corner(3 * f)), at(mesh_.corner(3 * f + 1)), at(mesh_.corner(3 * f + 2)));
-  }
-
   std::vector<Crossing> find_crossings() const {
     std::vector<Index> edges;
-    for (Index h = 0; h < mesh_.halfedges(); ++h) {
-      const bool once = mesh_.opposite(h) < 0 || mesh_.opposite(h) > h;
-      if (once && !held_[mesh_.source(h)] && !held_[mesh_.target(h)]) {
+    for (Index h = 0; h < edges_.halfedges(); ++h) {
+      const bool once = edges_.opposite(h) < 0 || edges_.opposite(h) > h;
+      if (once && !held_[edges_.source(h)] && !held_[edges_.target(h)]) {
         edges.push_back(h);
       }
     }
     Points middles(static_cast<Index>(edges.size()), 3);
     for (std::size_t e = 0; e < edges.size(); ++e) {
-      middles.row(static_cast<Index>(e)) = (at(mesh_.source(edges[e])) + at(mesh_.target(edges[e]))) / 2;
+      middles.row(static_cast<Index>(e)) = (at(edges_.source(edges[e])) + at(edges_.target(edges[e]))) / 2;
     }
     const Neighbors near = lines_.near(middles);
     std::vector<Crossing> crossings;
@@ -177,7 +142,7 @@ class Alignment {
 
   /// How far along the crease from the sample an edge crosses it; negative if it does not.
   double crosses(Index h, Index s) const {
-    const Vector a = at(mesh_.source(h)), b = at(mesh_.target(h));
+    const Vector a = at(edges_.source(h)), b = at(edges_.target(h));
     const double side_a = lines_.side(s, a), side_b = lines_.side(s, b);
     if (side_a * side_b >= 0) return -1;
     const Vector x = a + (b - a) * (side_a / (side_a - side_b));
@@ -194,7 +159,7 @@ class Alignment {
     std::vector<Choice> choices;
     for (std::size_t c = 0; c < crossings.size(); ++c) {
       const Index h = crossings[c].halfedge;
-      for (Index v : {mesh_.source(h), mesh_.target(h)}) {
+      for (Index v : {edges_.source(h), edges_.target(h)}) {
         const double distance = lines_.distance(crossings[c].sample, at(v)) / lengths_(v);
         if (distance < most) choices.emplace_back(distance, v, static_cast<Index>(c));
       }
@@ -203,8 +168,8 @@ class Alignment {
     for (const auto& [distance, v, c] : choices) {
       const Index h = crossings[c].halfedge;
       // An edge that was flipped is another one by now.
-      if (v != mesh_.source(h) && v != mesh_.target(h)) continue;
-      if (held_[mesh_.source(h)] || held_[mesh_.target(h)]) continue;
+      if (v != edges_.source(h) && v != edges_.target(h)) continue;
+      if (held_[edges_.source(h)] || held_[edges_.target(h)]) continue;
       move(v, nearest_on_crease(v, crossings[c].sample), crossings[c].sample);
     }
   }
@@ -228,39 +193,28 @@ class Alignment {
   void flip(const std::vector<Crossing>& crossings) {
     for (const Crossing& each : crossings) {
       const Index h = each.halfedge;
-      if (mesh_.opposite(h) < 0 || held_[mesh_.source(h)] || held_[mesh_.target(h)]) continue;
-      if (!held_[mesh_.apex(h)] || !held_[mesh_.apex(mesh_.opposite(h))]) continue;
-      changes_ += flip_safely(h);
+      if (edges_.opposite(h) < 0 || held_[edges_.source(h)] || held_[edges_.target(h)]) continue;
+      if (!held_[edges_.apex(h)] || !held_[edges_.apex(edges_.opposite(h))]) continue;
+      changes_ += mesh_.flip(h);
     }
   }
 
   /// Flips the longest edges of faces that lie with all corners on one line of a crease.
   void flip_flat_faces() {
-    for (Index h = 0; h < mesh_.halfedges(); ++h) {
-      const Index a = mesh_.source(h), b = mesh_.target(h), c = mesh_.apex(h);
-      if (!held_[a] || !held_[b] || !held_[c] || mesh_.opposite(h) < 0) continue;
+    for (Index h = 0; h < edges_.halfedges(); ++h) {
+      const Index a = edges_.source(h), b = edges_.target(h), c = edges_.apex(h);
+      if (!held_[a] || !held_[b] || !held_[c] || edges_.opposite(h) < 0) continue;
       const double length = (at(b) - at(a)).norm();
-      if (area(h / 3).norm() > kFlat * length * length) continue;
+      if (mesh_.area(h / 3).norm() > kFlat * length * length) continue;
       if (length < (at(c) - at(a)).norm() || length < (at(c) - at(b)).norm()) continue;
-      changes_ += flip_safely(h);
+      changes_ += mesh_.flip(h);
     }
-  }
-
-  bool flip_safely(Index h) {
-    const Index o = mesh_.opposite(h);
-    const Index a = mesh_.source(h), b = mesh_.target(h), c = mesh_.apex(h), d = mesh_.apex(o);
-    const Vector before = area(h / 3) + area(o / 3);
-    const double longest = std::max((at(a) - at(b)).squaredNorm(), (at(c) - at(d)).squaredNorm());
-    for (const Vector& after : {Vector(area_vector(at(c), at(a), at(d))), Vector(area_vector(at(d), at(b), at(c)))}) {
-      if (turns(before, after) || after.norm() < kLeastOfEdge * longest) return false;
-    }
-    return mesh_.flip(h);
   }
 
   const Creases& creases_;
   CreasesNearby lines_;
-  FlippableMesh mesh_;
-  Points vertices_;
+  GuardedMesh mesh_;
+  const FlippableMesh& edges_;  // its topology
   Mask fixed_;
   std::vector<char> held_;  // whether each vertex lies on a crease
   Eigen::VectorXd lengths_;
