@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from hdpea import _core
 from hdpea.dataset.options import GroundTruthOptions
 from hdpea.errors import CannotReconstruct, core_errors_translated
+from hdpea.geometry.directions import directions_of
 from hdpea.geometry.sampling import sample_surface
 from hdpea.geometry.tensors import principal, symmetric_tensors, tangent_directions
 from hdpea.geometry.triangles import area_vectors, mesh_area
@@ -142,5 +143,5 @@ def vertex_normals(vertices: NDArray[np.float64], faces: NDArray[np.int64]) -> N
     sums, by_area = np.zeros_like(vertices), area_vectors(vertices, faces)
     for corner in range(3):
         np.add.at(sums, faces[:, corner], by_area)
-    lengths = np.linalg.norm(sums, axis=1, keepdims=True)
-    return np.where(lengths > 0, sums / np.where(lengths > 0, lengths, 1), np.eye(3)[2])
+    means = directions_of(sums)
+    return np.where(means.any(axis=1, keepdims=True), means, np.eye(3)[2])

@@ -6,6 +6,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from hdpea.geometry.directions import directions_of
 from hdpea.geometry.linked import first_linked
 from hdpea.geometry.triangles import area_vectors
 
@@ -30,8 +31,7 @@ def split_at_creases(vertices: NDArray[np.float64], faces: Corners) -> tuple[Cor
 def _corners_joined(vertices: NDArray[np.float64], faces: Corners) -> tuple[Corners, Corners]:
     """Return pairs (p,) of corners, numbered along ``faces.ravel()``, that lie on one vertex across a smooth edge."""
     lengths = abs(vertices).max(initial=0) or 1.0
-    normals = area_vectors(vertices / lengths, faces)
-    normals /= np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), np.finfo(float).tiny)
+    normals = directions_of(area_vectors(vertices / lengths, faces))
     starts = np.arange(faces.size)
     ends = starts - starts % 3 + (starts + 1) % 3
     ends_of = np.stack([faces.ravel()[starts], faces.ravel()[ends]], axis=1)

@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from hdpea import _core
+from hdpea.geometry.directions import directions_of
 from hdpea.geometry.thinning import rows_along
 from hdpea.runtime.blocks import in_blocks
 
@@ -110,9 +111,8 @@ def mean_normals(points: NDArray[np.float64], normals: NDArray[np.float64]) -> N
     Where normals were fitted to two layers at once they lie any way, but on average across both.
     """
     around = _core.nearest_neighbors(points, min(AROUND_DOUBLED, len(points) - 1))
-    sums = in_blocks(lambda rows: normals[around[rows]].sum(axis=1), len(points)) + normals
-    lengths = np.linalg.norm(sums, axis=1, keepdims=True)
-    return np.asarray(np.where(lengths > 0, sums / np.where(lengths > 0, lengths, 1), normals))
+    means = directions_of(in_blocks(lambda rows: normals[around[rows]].sum(axis=1), len(points)) + normals)
+    return np.where(means.any(axis=1, keepdims=True), means, normals)
 
 
 def _most_height(
