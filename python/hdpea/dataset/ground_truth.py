@@ -143,5 +143,4 @@ def vertex_normals(vertices: NDArray[np.float64], faces: NDArray[np.int64]) -> N
     sums, by_area = np.zeros_like(vertices), area_vectors(vertices, faces)
     for corner in range(3):
         np.add.at(sums, faces[:, corner], by_area)
-    means = directions_of(sums)
-    return np.where(means.any(axis=1, keepdims=True), means, np.eye(3)[2])
+    return directions_of(sums, otherwise=np.eye(3)[2])

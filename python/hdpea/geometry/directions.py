@@ -4,16 +4,16 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 TAU = 2 * np.pi
 GOLDEN_ANGLE = TAU * (2 - (1 + 5**0.5) / 2)
 
 
-def directions_of(vectors: NDArray[np.float64]) -> NDArray[np.float64]:
-    """Return the vectors (n, 3) at length 1; 0 where they have none."""
+def directions_of(vectors: NDArray[np.float64], otherwise: ArrayLike = 0.0) -> NDArray[np.float64]:
+    """Return the vectors (n, 3) at length 1; where they have none, what stands there `otherwise`."""
     lengths = np.linalg.norm(vectors, axis=1, keepdims=True)
-    return np.asarray(vectors / np.where(lengths > 0, lengths, 1))
+    return np.where(lengths == 0, otherwise, vectors / np.where(lengths > 0, lengths, 1))
 
 
 def on_sphere(azimuth: NDArray[np.float64], height: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -111,8 +111,8 @@ def mean_normals(points: NDArray[np.float64], normals: NDArray[np.float64]) -> N
     Where normals were fitted to two layers at once they lie any way, but on average across both.
     """
     around = _core.nearest_neighbors(points, min(AROUND_DOUBLED, len(points) - 1))
-    means = directions_of(in_blocks(lambda rows: normals[around[rows]].sum(axis=1), len(points)) + normals)
-    return np.where(means.any(axis=1, keepdims=True), means, normals)
+    sums = in_blocks(lambda rows: normals[around[rows]].sum(axis=1), len(points)) + normals
+    return directions_of(sums, otherwise=normals)
 
 
 def _most_height(

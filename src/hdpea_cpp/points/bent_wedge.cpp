@@ -60,7 +60,7 @@ std::optional<Wedge> fit_bent_wedge(const Neighborhood& around, const std::vecto
     wedge = {line->first, line->second, one->plane.normal, other->plane.normal, wedge.convex, 0, true};
     squares = one->squares + other->squares;
   }
-  wedge.residual = squares / std::max(static_cast<double>(sides.size()) - unknowns, 1.0);
+  wedge.residual = variance(squares, sides.size(), unknowns);
   return wedge;
 }
 

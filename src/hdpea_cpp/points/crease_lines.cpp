@@ -151,10 +151,9 @@ std::vector<CreaseSample> on_long_lines(const std::vector<CreaseSample>& samples
   const auto apart = [&](Index i, Index j) {
     return (positions.row(i) - positions.row(j)).norm() / samples[i].spacing;
   };
-  const auto strong = [&](Index i) { return samples[i].strong; };
   // What is weak has to lie on a line more exactly.
   const auto joined = [&](Index i, Index j) {
-    const bool both_strong = strong(i) && strong(j);
+    const bool both_strong = samples[i].strong && samples[j].strong;
     if (both_strong && apart(i, j) <= most_apart_on_arc && is_arc_between(samples[i], samples[j])) return true;
     if (apart(i, j) > most_apart) return false;
     return both_strong ? continues(samples[i], samples[j])
@@ -180,7 +179,7 @@ std::vector<CreaseSample> on_long_lines(const std::vector<CreaseSample>& samples
     }
   }
   std::vector<double> lengths(samples.size(), 0);
-  for (Index i = 0; i < count; ++i) lengths[lines.find(i)] += strong(i) ? kMeanStep : 0;
+  for (Index i = 0; i < count; ++i) lengths[lines.find(i)] += samples[i].strong ? kMeanStep : 0;
   std::vector<CreaseSample> kept;
   for (Index i = 0; i < count; ++i) {
     if (lengths[lines.find(i)] >= min_length) kept.push_back(samples[i]);

@@ -28,8 +28,8 @@ std::vector<CreaseSample> thinned(std::vector<CreaseSample> samples);
 /// Those that follow each other along lines at least `min_length` spacings long; `samples` are thinned.
 ///
 /// Pieces of one line with a gap of up to 6 spacings count together, and so do lines that meet: what is short by
-/// itself, as the edges of a slab, ends where others do. Samples that are not strong continue lines,
-/// and add nothing to their length.
+/// itself, as the edges of a slab, ends where others do. Samples that are not strong continue
+/// lines, and add nothing to their length.
 std::vector<CreaseSample> on_long_lines(const std::vector<CreaseSample>& samples, double min_length);
 
 /// Adds samples where the next one on a line is far, along the arc between them.

@@ -41,11 +41,12 @@ struct Creases {
 /// Finds the sharp edges that points show.
 ///
 /// Around a point near which normals differ, two half-planes that meet in a line (a wedge) are fitted to the nearest
-/// points whose normals are near those of the two, and once more around the line. They are a crease where they fit far
-/// better than a smooth quadratic surface: noise is as far off the one as off the other, and a bend wider than the
-/// points are apart is farther off the wedge. Normals are where the fit begins; they may be smeared across the crease,
-/// as estimated ones are. Samples count only where they follow each other along a line or an arc of some length, whose
-/// gaps are filled. Where such lines end and meet is a corner, and the lines go on up to it.
+/// points whose normals are near those of the two, and once more around the line; where these fit much better, with
+/// sides that bend along the line, as around the rim of a hole. They are a crease where they fit far better than a
+/// smooth quadratic surface: noise is as far off the one as off the other, and a bend wider than the points are apart
+/// is farther off the wedge. Normals are where the fit begins; they may be smeared across the crease, as estimated ones
+/// are. Samples count only where they follow each other along a line or an arc of some length, whose gaps are filled.
+/// Where such lines end and meet is a corner, and the lines go on up to it.
 ///
 /// @param points   (n, 3), n >= 1
 /// @param normals  (n, 3) unit, consistently oriented

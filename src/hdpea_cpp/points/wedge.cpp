@@ -19,10 +19,6 @@ constexpr double kUnknowns = 6;
 /// A bent wedge is taken if its variance is less than this share of that of the straight one.
 constexpr double kMuchBetter = 0.7;
 
-double variance(double squares, std::size_t count) {
-  return squares / std::max(static_cast<double>(count) - kUnknowns, 1.0);
-}
-
 /// The plane of the points of one side, by least squares. Normals count a little: points on a line leave it open.
 std::optional<Plane> fit_plane(const Neighborhood& around, const std::vector<char>& sides, char side) {
   constexpr double normal_weight = 0.05;
@@ -98,7 +94,7 @@ std::optional<Wedge> fit_wedge(const Neighborhood& around, const Vector& first, 
     const double height = plane.normal.dot(around.points[i] - plane.centre) / around.spacing;
     squares += height * height;
   }
-  wedge.residual = variance(squares, count);
+  wedge.residual = variance(squares, count, kUnknowns);
   const auto bent = fit_bent_wedge(around, sides, wedge);
   return bent && bent->residual < kMuchBetter * wedge.residual ? bent : wedge;
 }
@@ -122,7 +118,7 @@ double quadric_residual(const Neighborhood& around, const Vector& axis) {
     // Across the surface, which is less than along the axis where it is steep.
     squares += height * height / (1 + slope_a * slope_a + slope_b * slope_b);
   }
-  return variance(squares, around.points.size());
+  return variance(squares, around.points.size(), kUnknowns);
 }
 
 }  // namespace hdpea

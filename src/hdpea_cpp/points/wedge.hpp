@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -25,6 +27,11 @@ struct Wedge {
   double residual;                ///< variance of the points off its sides, in squared spacings
   bool bent;                      ///< whether the sides bend along the line, and the planes touch them there
 };
+
+/// The variance of points off what was fitted to them with so many unknowns, from the sum of their squared distances.
+inline double variance(double squares, std::size_t points, double unknowns) {
+  return squares / std::max(static_cast<double>(points) - unknowns, 1.0);
+}
 
 /// The two normals that differ most, and up to two more that differ from all before, as around a corner.
 std::vector<Eigen::Vector3d> differing_normals(const Neighborhood& around);
